@@ -1,0 +1,95 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "heightlight/image.h"
+
+namespace heightlight {
+
+/// What lies beyond the outermost samples.
+enum class Boundary {
+  tile,  ///< the map repeats without end (materials)
+  open   ///< nothing: a ray that leaves sees the sky, even below the horizontal (terrain)
+};
+
+const char* to_string(Boundary boundary);
+
+/// Distance between neighbouring samples, in world units, both > 0.
+struct Spacing {
+  double x = 0;
+  double y = 0;
+};
+
+/// Heights in world units at the texel centres; the one input of everything that follows.
+struct Heightmap {
+  Image<float> height;  ///< above `base`, so that small relief on a large offset keeps its digits; NaN = missing
+  double base = 0;      ///< world height of 0 in `height`; the lowest sample, so that height >= 0
+  Spacing spacing;
+  Boundary boundary = Boundary::tile;
+};
+
+/// Peak-to-valley height of the samples present, in world units; 0 where none is.
+double relief(const Heightmap& map);
+
+/// Samples that are missing (NaN).
+std::size_t count_missing(const Heightmap& map);
+
+/// How the samples of a file become heights. Absent values take the defaults that each field names.
+struct LoadOptions {
+  std::optional<double> relief;      ///< > 0; peak-to-valley of the result. Integer files: width / 10; others: as they are
+  std::optional<double> width;       ///< > 0; extent of the columns, world units. Default 1. Excludes `texel`
+  std::optional<Spacing> texel;      ///< spacing; default width / columns, or an Esri grid's own cell size
+  std::optional<Boundary> boundary;  ///< default `open` for Esri grids, `tile` for images
+  std::optional<double> no_data;     ///< the value, as stored in the file, that means "missing"
+  std::optional<std::string> channel;  ///< name or 0-based index; default: the only one, or grey where all agree
+  bool invert = false;                 ///< the file holds depths: the highest value is the lowest place
+};
+
+/// What a file turned out to hold, before and after it became a heightmap.
+struct SourceFacts {
+  std::string format;         ///< "png", "esri ascii grid", "openexr", …
+  std::string sample_type;    ///< "uint8", "uint16", "half", "float", "double", "text"
+  int bits = 0;               ///< per sample; 0 for text
+  bool is_integer = false;    ///< samples are levels without a unit, mapped to [0, relief]
+  int channels = 0;
+  std::string channel;        ///< what was read: "Y", "R", "grey (R = G = B)"
+  std::size_t levels = 0;     ///< distinct values among the samples present
+  double lowest = 0;          ///< as stored in the file
+  double highest = 0;
+  std::optional<double> declared_no_data;  ///< from the file's header
+  std::string sha256;         ///< of the file's bytes, hexadecimal
+};
+
+struct LoadedHeightmap {
+  Heightmap map;
+  SourceFacts facts;
+};
+
+/// Reads a heightmap: PNG of 8 and 16 bits, Esri ASCII grids (`.asc`), and what OpenImageIO reads (EXR, TIFF, JPEG,
+/// TGA, HDR). The format follows from the file's content, not from its name, save for `.asc`.
+/// Integer samples are stretched so that the lowest present is 0 and the highest `relief`; float samples are heights,
+/// stretched only where `relief` is given. Samples equal to a no-data value (`no_data`, the header's, NaN) go missing.
+/// `memory_limit` (bytes) is checked against the header's size before samples are read.
+/// Throws Error naming `path` and what is wrong: missing, a directory, empty, truncated, not an image, 0 × 0, larger
+/// than memory allows, nothing but missing samples, channels that differ without `channel`, cell size in degrees;
+/// UsageError for options outside their range.
+LoadedHeightmap load_heightmap(const std::filesystem::path& path, const LoadOptions& options,
+                               std::uint64_t memory_limit);
+
+/// How steps across the map's borders compare with steps inside: a tile's are alike.
+struct EdgeSteps {
+  double across_x = 0;  ///< root mean square of h(row, 0) − h(row, last), world units; NaN where nothing to compare
+  double inside_x = 0;  ///< root mean square step between neighbouring columns
+  double across_y = 0;
+  double inside_y = 0;
+  bool wraps = false;  ///< steps across are no larger than 1.5 times those inside, in x and in y
+};
+
+/// Throws nothing; missing samples are left out.
+EdgeSteps measure_edge_steps(const Image<float>& height);
+
+}  // namespace heightlight

@@ -1,0 +1,53 @@
+#include "cli/command_line.h"
+
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+
+#include "cli/commands.h"
+#include "core/interrupt.h"
+#include "heightlight/error.h"
+
+namespace heightlight {
+namespace {
+
+int fail(int exit_code, const std::string& message) {
+  std::fprintf(stderr, "heightlight: %s\n", message.c_str());
+  return exit_code;
+}
+
+// CLI11 tells usage errors from requests for help by the exit code that it would use.
+int finish_parse(const CLI::App& app, const CLI::ParseError& error) {
+  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);
+  return fail(2, std::string(error.what()) + " (see heightlight --help)");
+}
+
+}  // namespace
+
+int run_command_line(int argument_count, const char* const* arguments) {
+  note_interrupts();
+  CLI::App app{"Light on height fields: ambient occlusion, form factors, bounces, and what closed forms make of them"};
+  app.name("heightlight");
+  app.set_version_flag("--version", HEIGHTLIGHT_VERSION);
+  app.require_subcommand(1);
+  add_simulate_command(app);
+  add_synth_command(app);
+  add_info_command(app);
+  try {
+    app.parse(argument_count, arguments);
+    return 0;
+  } catch (const CLI::ParseError& error) {
+    return finish_parse(app, error);
+  } catch (const Interrupted& error) {
+    return fail(128 + error.signal, error.what());
+  } catch (const UsageError& error) {
+    return fail(2, error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(1, "out of memory");
+  } catch (const std::exception& error) {
+    return fail(1, error.what());
+  }
+}
+
+}  // namespace heightlight

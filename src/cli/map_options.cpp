@@ -1,0 +1,74 @@
+#include "cli/map_options.h"
+
+#include "core/byte_size.h"
+#include "core/parallel.h"
+#include "heightlight/error.h"
+
+namespace heightlight {
+namespace {
+
+double parse_length(const std::string& text, const std::string& whole) {
+  std::size_t used = 0;
+  double value = 0;
+  try {
+    value = std::stod(text, &used);
+  } catch (const std::exception&) {
+    used = 0;
+  }
+  if (used == 0 || used != text.size()) {
+    throw UsageError("--texel " + whole + ": write one spacing (50) or two (70.8x92.6)");
+  }
+  return value;
+}
+
+Spacing parse_spacing(const std::string& text) {
+  const std::size_t cross = text.find('x');
+  if (cross == std::string::npos) {
+    const double both = parse_length(text, text);
+    return {both, both};
+  }
+  return {parse_length(text.substr(0, cross), text), parse_length(text.substr(cross + 1), text)};
+}
+
+}  // namespace
+
+void add_map_options(CLI::App& command, MapOptions& options) {
+  LoadOptions& load = options.load;
+  command.add_option("MAP", options.path, "heightmap: PNG, EXR, TIFF, JPEG, TGA, HDR or Esri ASCII grid")->required();
+  command.add_option("--relief", load.relief, "peak-to-valley height in world units (images: width / 10)");
+  auto* width = command.add_option("--width", load.width, "extent of the columns in world units (1)");
+  command
+      .add_option_function<std::string>(
+          "--texel", [&load](const std::string& text) { load.texel = parse_spacing(text); },
+          "spacing of samples in world units: S, or SXxSY")
+      ->type_name("S|SXxSY")
+      ->excludes(width);
+  command
+      .add_option_function<std::string>(
+          "--boundary",
+          [&load](const std::string& text) { load.boundary = text == "tile" ? Boundary::tile : Boundary::open; },
+          "tile: the map repeats (images' default); open: nothing beyond (Esri grids' default)")
+      ->check(CLI::IsMember({"tile", "open"}));
+  command.add_option("--no-data", load.no_data, "the stored value that means a missing sample");
+  command.add_option("--channel", load.channel, "channel to read, by name or number, where they differ");
+  command.add_flag("--invert", load.invert, "the file holds depths: its highest value is the lowest place");
+}
+
+void add_run_options(CLI::App& command, RunOptions& options) {
+  command.add_option("--threads", options.threads, "threads to use (one per processor); results do not depend on it")
+      ->check(CLI::Range(0, 4096));
+  command
+      .add_option_function<std::string>(
+          "--memory", [&options](const std::string& text) { options.memory = parse_byte_size(text); },
+          "most memory to use, such as 8G (four fifths of what is free)")
+      ->type_name("BYTES");
+  command.add_option("--seed", options.seed, "seed of every random choice (1)");
+  command.add_flag("--quiet", options.quiet, "no progress bar, no report");
+}
+
+void apply_run_options(RunOptions& options) {
+  set_thread_count(options.threads);
+  if (options.memory == 0) options.memory = available_memory() / 5 * 4;
+}
+
+}  // namespace heightlight

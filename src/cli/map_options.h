@@ -1,0 +1,35 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "heightlight/heightmap.h"
+
+namespace heightlight {
+
+/// The options that say how a file becomes a heightmap, as text until they are read.
+struct MapOptions {
+  std::filesystem::path path;
+  LoadOptions load;
+};
+
+/// Adds MAP and `--relief --width --texel --boundary --no-data --channel --invert`.
+void add_map_options(CLI::App& command, MapOptions& options);
+
+/// The options that say how a command runs.
+struct RunOptions {
+  int threads = 0;            ///< 0: one per processor
+  std::uint64_t memory = 0;   ///< bytes; set by apply_run_options where the user did not
+  std::uint64_t seed = 1;
+  bool quiet = false;
+};
+
+/// Adds `--threads --memory --seed --quiet`.
+void add_run_options(CLI::App& command, RunOptions& options);
+
+/// Sets the number of threads, and the default for `--memory`: four fifths of what the machine can still give.
+void apply_run_options(RunOptions& options);
+
+}  // namespace heightlight

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+namespace heightlight {
+
+/// A progress bar with the time left, on stderr: drawn on a terminal only, and only for work of more than a second.
+/// `add` may be called from any thread.
+class Progress {
+ public:
+  /// `total` units of work. A silent bar (`quiet`) counts and draws nothing.
+  Progress(std::string label, std::int64_t total, bool quiet);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  void add(std::int64_t units);
+
+ private:
+  void draw(double seconds, std::int64_t done);
+
+  std::string label_;
+  std::int64_t total_;
+  bool draws_;
+  bool drawn_ = false;
+  std::chrono::steady_clock::time_point start_;
+  std::atomic<std::int64_t> done_{0};
+  std::atomic<std::int64_t> next_draw_ms_{1000};
+};
+
+}  // namespace heightlight

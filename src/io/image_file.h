@@ -1,0 +1,34 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "heightlight/image.h"
+
+namespace heightlight {
+
+/// An 8-bit RGB colour, sRGB encoded, as pictures hold it.
+using Rgb8 = std::array<std::uint8_t, 3>;
+
+/// Each writer replaces `path`, and throws Error naming it and what is wrong (full disk, unwritable folder).
+
+/// 8-bit sRGB picture, through stb.
+void write_png(const std::filesystem::path& path, const Image<Rgb8>& picture);
+
+/// 16-bit grey, levels as given.
+void write_png16(const std::filesystem::path& path, const Image<std::uint16_t>& levels);
+
+/// float32 EXR (or TIFF, by extension) with one map per named channel ("Y", or "R", "G", "B"), all of one size.
+/// `attributes` are text attributes of the header. NaN is kept.
+void write_float_image(const std::filesystem::path& path,
+                       const std::vector<std::pair<std::string, const Map*>>& channels,
+                       const std::vector<std::pair<std::string, std::string>>& attributes = {});
+
+/// SHA-256 of a file's bytes, hexadecimal. Throws Error.
+std::string sha256_of_file(const std::filesystem::path& path);
+
+}  // namespace heightlight

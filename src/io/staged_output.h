@@ -1,0 +1,56 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace heightlight {
+
+/// A folder of results that appears whole or not at all. Files are written into a hidden staging folder on the same
+/// file system; `commit` syncs them and renames each into place; without it, the destructor removes every trace,
+/// folders that this object created included.
+class StagedFolder {
+ public:
+  /// Creates `folder` (and its parents) where absent. Throws Error naming it when it can't be created or written to,
+  /// or exists and is no folder.
+  explicit StagedFolder(std::filesystem::path folder);
+  ~StagedFolder();
+  StagedFolder(const StagedFolder&) = delete;
+  StagedFolder& operator=(const StagedFolder&) = delete;
+
+  /// Where to write the file that will be called `name` in the folder. Names have no folder part.
+  std::filesystem::path file(const std::string& name);
+
+  /// Where that file will stand: for messages.
+  std::filesystem::path final_path(const std::string& name) const { return folder_ / name; }
+
+  /// Puts every staged file in its place. Throws Error naming the file that could not be.
+  void commit();
+
+ private:
+  std::filesystem::path folder_;
+  std::filesystem::path staging_;
+  std::filesystem::path first_created_;  ///< topmost folder that did not exist before; empty if all did
+  std::vector<std::string> names_;
+  bool committed_ = false;
+};
+
+/// One result file, likewise: write to `path()`, then `commit()`.
+class StagedFile {
+ public:
+  /// Throws Error when the folder of `destination` can't be written to, or `destination` is a folder.
+  explicit StagedFile(std::filesystem::path destination);
+  ~StagedFile();
+  StagedFile(const StagedFile&) = delete;
+  StagedFile& operator=(const StagedFile&) = delete;
+
+  const std::filesystem::path& path() const { return staged_; }
+  void commit();
+
+ private:
+  std::filesystem::path destination_;
+  std::filesystem::path staged_;  ///< keeps the destination's extension, which chooses the format
+  bool committed_ = false;
+};
+
+}  // namespace heightlight
