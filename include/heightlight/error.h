@@ -5,8 +5,8 @@
 
 namespace heightlight {
 
-/// Something could not be done: a bad file, a full disk, too little memory. The message is one line that names
-/// what it is about and what is wrong. The command line prints it and exits with 1.
+/// Something could not be done: a bad file, a full disk, too little memory. The message is one line that
+/// names what it is about and what is wrong. The command line prints it and exits with 1.
 struct Error : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

@@ -26,8 +26,9 @@ struct Spacing {
 
 /// Heights in world units at the texel centres; the one input of everything that follows.
 struct Heightmap {
-  Image<float> height;  ///< above `base`, so that small relief on a large offset keeps its digits; NaN = missing
-  double base = 0;      ///< world height of 0 in `height`; the lowest sample, so that height >= 0
+  Image<float>
+      height;       ///< above `base`, so that small relief on a large offset keeps its digits; NaN = missing
+  double base = 0;  ///< world height of 0 in `height`; the lowest sample, so that height >= 0
   Spacing spacing;
   Boundary boundary = Boundary::tile;
 };
@@ -40,28 +41,34 @@ std::size_t count_missing(const Heightmap& map);
 
 /// How the samples of a file become heights. Absent values take the defaults that each field names.
 struct LoadOptions {
-  std::optional<double> relief;      ///< > 0; peak-to-valley of the result. Integer files: width / 10; others: as they are
+  std::optional<double>
+      relief;  ///< > 0; peak-to-valley of the result. Integer files: width / 10; others: as they are
   std::optional<double> width;       ///< > 0; extent of the columns, world units. Default 1. Excludes `texel`
   std::optional<Spacing> texel;      ///< spacing; default width / columns, or an Esri grid's own cell size
   std::optional<Boundary> boundary;  ///< default `open` for Esri grids, `tile` for images
   std::optional<double> no_data;     ///< the value, as stored in the file, that means "missing"
-  std::optional<std::string> channel;  ///< name or 0-based index; default: the only one, or grey where all agree
-  bool invert = false;                 ///< the file holds depths: the highest value is the lowest place
+  std::optional<std::string> channel;  ///< name (any case) or 0-based index; default: the only one, or grey
+                                       ///< where all agree at every texel (alpha left out)
+  bool invert = false;  ///< the file holds depths: the highest value is the lowest place
 };
+
+/// Levels are counted up to here: as many as 16 bits can tell apart.
+constexpr std::size_t kMostLevels = 65536;
 
 /// What a file turned out to hold, before and after it became a heightmap.
 struct SourceFacts {
-  std::string format;         ///< "png", "esri ascii grid", "openexr", …
-  std::string sample_type;    ///< "uint8", "uint16", "half", "float", "double", "text"
-  int bits = 0;               ///< per sample; 0 for text
-  bool is_integer = false;    ///< samples are levels without a unit, mapped to [0, relief]
+  std::string format;       ///< "png", "esri ascii grid", "openexr", …
+  std::string sample_type;  ///< "uint8", "int8", … "int32", "half", "float", "double", "text"
+  int bits = 0;             ///< per sample; 0 for text
+  bool is_integer = false;  ///< samples are levels without a unit, mapped to [0, relief]
   int channels = 0;
-  std::string channel;        ///< what was read: "Y", "R", "grey (R = G = B)"
-  std::size_t levels = 0;     ///< distinct values among the samples present
-  double lowest = 0;          ///< as stored in the file
+  std::string channel;  ///< what was read: "Y", "R", "grey (R = G = B)"
+  std::size_t levels =
+      0;  ///< distinct values among the samples present; kMostLevels + 1 means more than kMostLevels
+  double lowest = 0;  ///< of the samples present, as stored in the file
   double highest = 0;
-  std::optional<double> declared_no_data;  ///< from the file's header
-  std::string sha256;         ///< of the file's bytes, hexadecimal
+  std::optional<double> declared_no_data;  ///< from the header of an Esri grid, or GDAL's tag in a TIFF
+  std::string sha256;                      ///< of the file's bytes, hexadecimal
 };
 
 struct LoadedHeightmap {
@@ -69,27 +76,32 @@ struct LoadedHeightmap {
   SourceFacts facts;
 };
 
-/// Reads a heightmap: PNG of 8 and 16 bits, Esri ASCII grids (`.asc`), and what OpenImageIO reads (EXR, TIFF, JPEG,
-/// TGA, HDR). The format follows from the file's content, not from its name, save for `.asc`.
-/// Integer samples are stretched so that the lowest present is 0 and the highest `relief`; float samples are heights,
-/// stretched only where `relief` is given. Samples equal to a no-data value (`no_data`, the header's, NaN) go missing.
+/// Reads a heightmap: PNG of 8 and 16 bits, Esri ASCII grids (`.asc`), and what OpenImageIO reads (EXR, TIFF,
+/// JPEG, TGA, HDR). The format follows from the file's content, not from its name, save for `.asc`. Integer
+/// samples are stretched so that the lowest present is 0 and the highest `relief`; float samples are heights,
+/// stretched likewise only where `relief` is given. What is stretched has base 0; a level map stays level.
+/// Samples equal to `no_data` or to the value that the file itself declares, NaN and ±infinity go missing.
+/// `width` sets the spacing along the rows, and that of an Esri grid along the columns in proportion.
 /// `memory_limit` (bytes) is checked against the header's size before samples are read.
-/// Throws Error naming `path` and what is wrong: missing, a directory, empty, truncated, not an image, 0 × 0, larger
-/// than memory allows, nothing but missing samples, channels that differ without `channel`, cell size in degrees;
-/// UsageError for options outside their range.
+/// Throws Error naming `path` and what is wrong: missing, a directory, empty, truncated or damaged, no known
+/// format, 0 × 0, larger than memory or 2^31 samples, nothing but missing samples, heights beyond float,
+/// channels that differ without `channel`, a cell size in degrees without `texel` (the message gives it in
+/// metres); UsageError for options outside their range, `width` with `texel`, or a `channel` that the file
+/// does not have.
 LoadedHeightmap load_heightmap(const std::filesystem::path& path, const LoadOptions& options,
                                std::uint64_t memory_limit);
 
 /// How steps across the map's borders compare with steps inside: a tile's are alike.
 struct EdgeSteps {
-  double across_x = 0;  ///< root mean square of h(row, 0) − h(row, last), world units; NaN where nothing to compare
+  double across_x =
+      0;  ///< root mean square of h(row, 0) − h(row, last), world units; NaN where nothing to compare
   double inside_x = 0;  ///< root mean square step between neighbouring columns
   double across_y = 0;
   double inside_y = 0;
   bool wraps = false;  ///< steps across are no larger than 1.5 times those inside, in x and in y
 };
 
-/// Throws nothing; missing samples are left out.
+/// Throws nothing; missing samples are left out, and so is an axis with nothing to compare.
 EdgeSteps measure_edge_steps(const Image<float>& height);
 
 }  // namespace heightlight

@@ -6,10 +6,12 @@
 
 namespace heightlight {
 
-/// The triangulated surface that every method shares. Samples are vertices; each cell is cut from (row i, column j) to
-/// (i+1, j+1). A cell is named by its upper left vertex; under `tile` the last row and column have cells that wrap.
+/// The triangulated surface that every method shares. Samples are vertices; each cell is cut from (row i,
+/// column j) to (i+1, j+1). A cell is named by its upper left vertex; under `tile` the last row and column
+/// have cells that wrap.
 ///
-/// World axes: x right, y up the image, z out of it. Grid coordinates: u = column, v = row (downwards), in texels.
+/// World axes: x right, y up the image, z out of it. Grid coordinates: u = column, v = row (downwards), in
+/// texels.
 struct Surface {
   Heightmap map;
   Image<Eigen::Vector3f> normal;  ///< unit, z > 0; NaN where the sample is missing
@@ -23,8 +25,9 @@ struct Surface {
   int cell_rows() const { return tiles() ? height() : height() - 1; }
 };
 
-/// Builds the surface. Normals are those of the central-difference gradient: wrapped when tiling, one-sided at open
-/// edges and beside missing samples, level where a sample has no neighbour along an axis. Heights are not changed.
+/// Builds the surface. Normals are those of the central-difference gradient: wrapped when tiling, one-sided
+/// at open edges and beside missing samples, level where a sample has no neighbour along an axis. Heights are
+/// not changed.
 Surface build_surface(Heightmap map);
 
 }  // namespace heightlight

@@ -18,10 +18,10 @@ struct SynthShape {
 /// flat, plane, bowl, trench, groove, cliff, steps, sines, fbm, cobbles, brick; in this order.
 const std::vector<SynthShape>& synth_shapes();
 
-/// Heights in [0, 1], `size` × `size`, texel centres at ((column + ½)/size, (row + ½)/size); the same for the same
-/// arguments on every machine and for any number of threads. The exact formula of each analytic shape stands above its
-/// function. `seed` matters to fbm, cobbles and brick.
-/// Throws UsageError for an unknown name (it lists the known ones) or a size outside [1, 32768].
+/// Heights in [0, 1], `size` × `size`, texel centres at ((column + ½)/size, (row + ½)/size); the same for the
+/// same arguments on every machine and for any number of threads. The exact formula of each analytic shape
+/// stands above its function. `seed` matters to fbm, cobbles and brick. Throws UsageError for an unknown name
+/// (it lists the known ones) or a size outside [1, 32768].
 Image<float> synthesize(const std::string& shape, int size, std::uint64_t seed);
 
 }  // namespace heightlight

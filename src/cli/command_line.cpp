@@ -27,7 +27,8 @@ int finish_parse(const CLI::App& app, const CLI::ParseError& error) {
 
 int run_command_line(int argument_count, const char* const* arguments) {
   note_interrupts();
-  CLI::App app{"Light on height fields: ambient occlusion, form factors, bounces, and what closed forms make of them"};
+  CLI::App app{
+      "Light on height fields: ambient occlusion, form factors, bounces, and what closed forms make of them"};
   app.name("heightlight");
   app.set_version_flag("--version", HEIGHTLIGHT_VERSION);
   app.require_subcommand(1);

@@ -34,7 +34,8 @@ Spacing parse_spacing(const std::string& text) {
 
 void add_map_options(CLI::App& command, MapOptions& options) {
   LoadOptions& load = options.load;
-  command.add_option("MAP", options.path, "heightmap: PNG, EXR, TIFF, JPEG, TGA, HDR or Esri ASCII grid")->required();
+  command.add_option("MAP", options.path, "heightmap: PNG, EXR, TIFF, JPEG, TGA, HDR or Esri ASCII grid")
+      ->required();
   command.add_option("--relief", load.relief, "peak-to-valley height in world units (images: width / 10)");
   auto* width = command.add_option("--width", load.width, "extent of the columns in world units (1)");
   command
@@ -46,7 +47,9 @@ void add_map_options(CLI::App& command, MapOptions& options) {
   command
       .add_option_function<std::string>(
           "--boundary",
-          [&load](const std::string& text) { load.boundary = text == "tile" ? Boundary::tile : Boundary::open; },
+          [&load](const std::string& text) {
+            load.boundary = text == "tile" ? Boundary::tile : Boundary::open;
+          },
           "tile: the map repeats (images' default); open: nothing beyond (Esri grids' default)")
       ->check(CLI::IsMember({"tile", "open"}));
   command.add_option("--no-data", load.no_data, "the stored value that means a missing sample");
@@ -55,7 +58,9 @@ void add_map_options(CLI::App& command, MapOptions& options) {
 }
 
 void add_run_options(CLI::App& command, RunOptions& options) {
-  command.add_option("--threads", options.threads, "threads to use (one per processor); results do not depend on it")
+  command
+      .add_option("--threads", options.threads,
+                  "threads to use (one per processor); results do not depend on it")
       ->check(CLI::Range(0, 4096));
   command
       .add_option_function<std::string>(

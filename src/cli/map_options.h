@@ -20,8 +20,8 @@ void add_map_options(CLI::App& command, MapOptions& options);
 
 /// The options that say how a command runs.
 struct RunOptions {
-  int threads = 0;            ///< 0: one per processor
-  std::uint64_t memory = 0;   ///< bytes; set by apply_run_options where the user did not
+  int threads = 0;           ///< 0: one per processor
+  std::uint64_t memory = 0;  ///< bytes; set by apply_run_options where the user did not
   std::uint64_t seed = 1;
   bool quiet = false;
 };
@@ -29,7 +29,8 @@ struct RunOptions {
 /// Adds `--threads --memory --seed --quiet`.
 void add_run_options(CLI::App& command, RunOptions& options);
 
-/// Sets the number of threads, and the default for `--memory`: four fifths of what the machine can still give.
+/// Sets the number of threads, and the default for `--memory`: four fifths of what the machine can still
+/// give.
 void apply_run_options(RunOptions& options);
 
 }  // namespace heightlight

@@ -27,7 +27,8 @@ void note_interrupts() {
 bool is_interrupted() { return noted_signal.load(std::memory_order_relaxed) != 0; }
 
 void throw_if_interrupted() {
-  if (const int signal_number = noted_signal.load(std::memory_order_relaxed)) throw Interrupted(signal_number);
+  if (const int signal_number = noted_signal.load(std::memory_order_relaxed))
+    throw Interrupted(signal_number);
 }
 
 }  // namespace heightlight

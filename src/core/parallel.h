@@ -12,13 +12,15 @@
 namespace heightlight {
 
 /// Threads for parallel_for from now on; 0 means one per processor. Results never depend on it.
-inline void set_thread_count(int threads) { omp_set_num_threads(threads > 0 ? threads : omp_get_num_procs()); }
+inline void set_thread_count(int threads) {
+  omp_set_num_threads(threads > 0 ? threads : omp_get_num_procs());
+}
 
 inline int thread_count() { return omp_get_max_threads(); }
 
-/// Calls body(i) once for each 0 ≤ i < count, in any order, on all threads. Bodies write to places of their own, so
-/// that results are the same for any number of threads. The first exception stops the loop and is thrown again here,
-/// as is Interrupted when a signal came.
+/// Calls body(i) once for each 0 ≤ i < count, in any order, on all threads. Bodies write to places of their
+/// own, so that results are the same for any number of threads. The first exception stops the loop and is
+/// thrown again here, as is Interrupted when a signal came.
 template <class Body>
 void parallel_for(std::int64_t count, Body&& body, Progress* progress = nullptr) {
   std::exception_ptr failure;

@@ -35,7 +35,8 @@ void Progress::draw(double seconds, std::int64_t done) {
   const int filled = static_cast<int>(share * kWidth);
   std::string bar(static_cast<std::size_t>(filled), '=');
   bar.resize(kWidth, ' ');
-  std::fprintf(stderr, "\r%s [%s] %3.0f %%  %.0f s left \033[K", label_.c_str(), bar.c_str(), share * 100, left);
+  std::fprintf(stderr, "\r%s [%s] %3.0f %%  %.0f s left \033[K", label_.c_str(), bar.c_str(), share * 100,
+               left);
   std::fflush(stderr);
   drawn_ = true;
 }

@@ -7,8 +7,8 @@
 
 namespace heightlight {
 
-/// A progress bar with the time left, on stderr: drawn on a terminal only, and only for work of more than a second.
-/// `add` may be called from any thread.
+/// A progress bar with the time left, on stderr: drawn on a terminal only, and only for work of more than a
+/// second. `add` may be called from any thread.
 class Progress {
  public:
   /// `total` units of work. A silent bar (`quiet`) counts and draws nothing.

@@ -22,8 +22,8 @@ void write_png(const std::filesystem::path& path, const Image<Rgb8>& picture);
 /// 16-bit grey, levels as given.
 void write_png16(const std::filesystem::path& path, const Image<std::uint16_t>& levels);
 
-/// float32 EXR (or TIFF, by extension) with one map per named channel ("Y", or "R", "G", "B"), all of one size.
-/// `attributes` are text attributes of the header. NaN is kept.
+/// float32 EXR (or TIFF, by extension) with one map per named channel ("Y", or "R", "G", "B"), all of one
+/// size. `attributes` are text attributes of the header. NaN is kept.
 void write_float_image(const std::filesystem::path& path,
                        const std::vector<std::pair<std::string, const Map*>>& channels,
                        const std::vector<std::pair<std::string, std::string>>& attributes = {});

@@ -6,19 +6,20 @@
 
 namespace heightlight {
 
-/// A folder of results that appears whole or not at all. Files are written into a hidden staging folder on the same
-/// file system; `commit` syncs them and renames each into place; without it, the destructor removes every trace,
-/// folders that this object created included.
+/// A folder of results that appears whole or not at all. Files are written into a hidden staging folder on
+/// the same file system; `commit` syncs them and renames each into place; without it, the destructor removes
+/// every trace, folders that this object created included.
 class StagedFolder {
  public:
-  /// Creates `folder` (and its parents) where absent. Throws Error naming it when it can't be created or written to,
-  /// or exists and is no folder.
+  /// Creates `folder` (and its parents) where absent. Throws Error naming it when it can't be created or
+  /// written to, or exists and is no folder.
   explicit StagedFolder(std::filesystem::path folder);
   ~StagedFolder();
   StagedFolder(const StagedFolder&) = delete;
   StagedFolder& operator=(const StagedFolder&) = delete;
 
-  /// Where to write the file that will be called `name` in the folder. Names have no folder part.
+  /// Where to write the file that will be called `name` in the folder. Names have no folder part. Throws
+  /// Error when something other than a regular file has that name already.
   std::filesystem::path file(const std::string& name);
 
   /// Where that file will stand: for messages.
@@ -38,19 +39,22 @@ class StagedFolder {
 /// One result file, likewise: write to `path()`, then `commit()`.
 class StagedFile {
  public:
-  /// Throws Error when the folder of `destination` can't be written to, or `destination` is a folder.
+  /// Throws Error when the folder of `destination` is absent or can't be written to, or `destination` exists
+  /// and is not a regular file.
   explicit StagedFile(std::filesystem::path destination);
   ~StagedFile();
   StagedFile(const StagedFile&) = delete;
   StagedFile& operator=(const StagedFile&) = delete;
 
+  /// Where to write it; it keeps the destination's name, whose extension chooses the format.
   const std::filesystem::path& path() const { return staged_; }
+
+  /// Puts the file in its place. Throws Error naming it when that can't be done.
   void commit();
 
  private:
   std::filesystem::path destination_;
-  std::filesystem::path staged_;  ///< keeps the destination's extension, which chooses the format
-  bool committed_ = false;
+  std::filesystem::path staged_;  ///< alone in a hidden folder beside the destination
 };
 
 }  // namespace heightlight

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <vector>
+
+#include "heightlight/image.h"
+#include "heightlight/surface.h"
+#include "heightlight/transport.h"
+
+namespace heightlight {
+
+/// The two ambient occlusions are different quantities; nothing here takes one for the other.
+enum class AoKind {
+  ambient_occlusion,  ///< α, a plain share of solid angle
+  sky_view_factor     ///< A, cosine weighted
+};
+
+/// "ambient_occlusion" or "sky_view_factor".
+const char* to_string(AoKind kind);
+
+/// How E_b/π (ρ = 1) is spread over the texels of one bin.
+struct BounceStatistics {
+  double mean = 0;
+  double stddev = 0;  ///< of the texels, not of the mean
+  double p05 = 0;     ///< percentiles, linearly interpolated between order statistics
+  double p50 = 0;
+  double p95 = 0;
+};
+
+/// The texels with ao_lo ≤ AO < ao_hi (the last bin includes 1).
+struct CurveBin {
+  int bin = 0;
+  double ao_lo = 0;
+  double ao_hi = 0;
+  double ao_mean = 0;     ///< of the bin's own texels
+  std::size_t count = 0;  ///< > 0: empty bins are absent
+  std::vector<BounceStatistics> bounces;  ///< [b], b = 0 … K
+  BounceStatistics tail;                  ///< Σ E_b/π over b > K; filled by CurveBuilder::add_tail
+};
+
+/// Bounce curves of one map over one kind of AO.
+struct BounceCurves {
+  AoKind kind = AoKind::ambient_occlusion;
+  int bins = 100;
+  std::vector<CurveBin> filled;  ///< ascending
+};
+
+/// Sorts texels into AO bins once, then takes bounce after bounce; bounce maps need not be kept.
+class CurveBuilder {
+ public:
+  /// `ao` in [0, 1], NaN where missing; 1 ≤ bins ≤ 10000 (UsageError otherwise).
+  CurveBuilder(const Map& ao, AoKind kind, int bins);
+
+  /// Adds the next bounce, E_b/π per texel.
+  void add(const TexelVector& irradiance);
+  void add_tail(const TexelVector& irradiance);
+
+  const BounceCurves& curves() const { return curves_; }
+
+ private:
+  BounceCurves curves_;
+  std::vector<std::size_t> texels_;  ///< grouped by filled bin
+  std::vector<std::size_t> begin_;   ///< of each filled bin's group
+};
+
+/// `curves.csv` as the design says: ao_kind,bin,ao_lo,ao_hi,ao_mean,count,bounce,mean,stddev,p05,p50,p95, both kinds
+/// below each other, numbers with as many digits as a double needs. Throws Error naming the file.
+void write_curves_csv(const std::filesystem::path& path, const std::vector<BounceCurves>& curves);
+
+/// One relief of a study of the height amplitude.
+struct ReliefCurves {
+  double relief_share = 0;  ///< peak-to-valley height over the map's width
+  BounceCurves curves;      ///< over α
+};
+
+/// The notes' study of the height amplitude: bounce curves of the map with its heights scaled to several reliefs.
+/// Runs on a copy of at most `largest_side` texels a side (every n-th sample), since only the curves' shape is asked.
+std::vector<ReliefCurves> study_reliefs(const Heightmap& map, const std::vector<double>& relief_shares,
+                                        int largest_side, const FormFactorOptions& options, int bounces, int bins);
+
+}  // namespace heightlight

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "heightlight/surface.h"
+
+namespace heightlight {
+
+/// How many rays a receiver sends, and how they are turned.
+struct RayOptions {
+  int rays = 1024;  ///< per receiver, 1 … 65536, stratified in solid angle over the tangent hemisphere
+  std::uint64_t seed = 1;  ///< of the per-texel rotations
+};
+
+/// A place on the surface: a point of the cell whose upper left vertex is `cell` (index into the height
+/// image). `across` and `down` are its coordinates inside the cell, in [0, 1]; across ≥ down is the upper
+/// right triangle.
+struct SurfacePoint {
+  std::uint32_t cell = 0;
+  float across = 0;
+  float down = 0;
+};
+
+/// What one receiver's rays found.
+struct ReceiverView {
+  int rays = 0;  ///< rays sent; 0 where the sample is missing
+  const float* weight =
+      nullptr;  ///< per ray, form factor of its direction: cosθ / Σ cosθ; `rays` of them, sum 1
+  std::uint8_t weight_table = 0;    ///< which of the caster's weight tables that is
+  std::vector<std::uint16_t> ray;   ///< of each hit: the ray's number, ascending
+  std::vector<SurfacePoint> place;  ///< of each hit: where it ended
+};
+
+}  // namespace heightlight

@@ -1,0 +1,112 @@
+#include "io/image_file.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+#include <stb/stb_image_write.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cerrno>
+#include <cstring>
+#include <functional>
+
+#include "io/input_file.h"
+
+namespace heightlight {
+namespace {
+
+/// Lets `write` fill the file at `path`, then makes sure that every byte went out: a full disk shows late, on
+/// flush.
+void write_file(const std::filesystem::path& path, const std::function<void(std::FILE*)>& write) {
+  errno = 0;
+  File file(std::fopen(path.c_str(), "wb"));
+  if (!file) throw file_error(path, std::string("cannot be written: ") + std::strerror(errno));
+  write(file.get());
+  if (std::fflush(file.get()) != 0 || std::ferror(file.get())) {
+    throw file_error(path, std::string("cannot be written: ") + std::strerror(errno == 0 ? EIO : errno));
+  }
+}
+
+/// Writes through OpenImageIO into a stream of ours, whose errors it would drop.
+void write_oiio(const std::filesystem::path& path, const char* format, const OIIO::ImageSpec& spec,
+                const std::function<bool(OIIO::ImageOutput&)>& write_samples) {
+  write_file(path, [&](std::FILE* stream) {
+    OIIO::Filesystem::IOFile proxy(stream, OIIO::Filesystem::IOProxy::Write);
+    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
+    if (!output) throw file_error(path, std::string("cannot be written: no writer for ") + format);
+    const bool taken = output->set_ioproxy(&proxy) && output->open(path.string(), spec);
+    const bool written = taken && write_samples(*output);
+    const std::string fault = output->geterror();
+    const bool closed = output->close();
+    // A failed stream explains itself better (no space left) than the library that met it.
+    if (std::ferror(stream)) return;
+    if (!written || !closed) {
+      throw file_error(path, "cannot be written: " + fault.substr(0, fault.find('\n')));
+    }
+  });
+}
+
+std::vector<float> interleave(const std::vector<std::pair<std::string, const Map*>>& channels, int first_row,
+                              int rows) {
+  const Map& first = *channels.front().second;
+  const std::size_t begin = first.index(first_row, 0);
+  const std::size_t count = first.index(rows, 0);
+  std::vector<float> samples(count * channels.size());
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    const float* source = channels[c].second->values.data() + begin;
+    for (std::size_t i = 0; i < count; ++i) samples[i * channels.size() + c] = source[i];
+  }
+  return samples;
+}
+
+}  // namespace
+
+void write_png(const std::filesystem::path& path, const Image<Rgb8>& picture) {
+  static_assert(sizeof(Rgb8) == 3, "stb takes packed pixels");
+  write_file(path, [&](std::FILE* stream) {
+    const auto append = [](void* context, void* data, int size) {
+      std::fwrite(data, 1, static_cast<std::size_t>(size), static_cast<std::FILE*>(context));
+    };
+    const int stride = picture.width * 3;
+    if (!stbi_write_png_to_func(append, stream, picture.width, picture.height, 3, picture.values.data(),
+                                stride)) {
+      throw file_error(path, "cannot be written: no memory to compress it");
+    }
+  });
+}
+
+void write_png16(const std::filesystem::path& path, const Image<std::uint16_t>& levels) {
+  const OIIO::ImageSpec spec(levels.width, levels.height, 1, OIIO::TypeDesc::UINT16);
+  write_oiio(path, "png", spec, [&](OIIO::ImageOutput& output) {
+    return output.write_image(OIIO::TypeDesc::UINT16, levels.values.data());
+  });
+}
+
+void write_float_image(const std::filesystem::path& path,
+                       const std::vector<std::pair<std::string, const Map*>>& channels,
+                       const std::vector<std::pair<std::string, std::string>>& attributes) {
+  assert(!channels.empty());
+  const Map& first = *channels.front().second;
+  OIIO::ImageSpec spec(first.width, first.height, static_cast<int>(channels.size()), OIIO::TypeDesc::FLOAT);
+  spec.channelnames.clear();
+  for (const auto& [name, map] : channels) {
+    assert(map->width == first.width && map->height == first.height);
+    spec.channelnames.push_back(name);
+  }
+  spec.attribute("compression", "zip");
+  for (const auto& [name, text] : attributes) spec.attribute(name, text);
+
+  const std::string extension = path.extension().string();
+  const bool is_tiff = extension == ".tif" || extension == ".tiff";
+  write_oiio(path, is_tiff ? "tiff" : "openexr", spec, [&](OIIO::ImageOutput& output) {
+    constexpr int kRowsAtATime = 256;  // a multiple of the 16 rows that EXR compresses together
+    for (int row = 0; row < first.height; row += kRowsAtATime) {
+      const int rows = std::min(kRowsAtATime, first.height - row);
+      const std::vector<float> samples = interleave(channels, row, rows);
+      if (!output.write_scanlines(row, row + rows, 0, OIIO::TypeDesc::FLOAT, samples.data())) return false;
+    }
+    return true;
+  });
+}
+
+}  // namespace heightlight

@@ -1,0 +1,99 @@
+#include "io/image_read.h"
+
+#include <OpenImageIO/imageio.h>
+
+#include <array>
+#include <memory>
+
+#include "io/input_file.h"
+#include "io/map_size.h"
+#include "io/tiff_no_data.h"
+
+namespace heightlight {
+namespace {
+
+/// A sample type that this reader takes: as stored, and as kept.
+struct SampleType {
+  OIIO::TypeDesc::BASETYPE stored;
+  OIIO::TypeDesc::BASETYPE kept;
+  const char* name;
+  StoredSamples (*make)(std::size_t count);
+};
+
+template <class T>
+StoredSamples make_samples(std::size_t count) {
+  return std::vector<T>(count);
+}
+
+const std::array kSampleTypes{
+    SampleType{OIIO::TypeDesc::UINT8, OIIO::TypeDesc::UINT8, "uint8", make_samples<std::uint8_t>},
+    SampleType{OIIO::TypeDesc::INT8, OIIO::TypeDesc::INT8, "int8", make_samples<std::int8_t>},
+    SampleType{OIIO::TypeDesc::UINT16, OIIO::TypeDesc::UINT16, "uint16", make_samples<std::uint16_t>},
+    SampleType{OIIO::TypeDesc::INT16, OIIO::TypeDesc::INT16, "int16", make_samples<std::int16_t>},
+    SampleType{OIIO::TypeDesc::UINT32, OIIO::TypeDesc::UINT32, "uint32", make_samples<std::uint32_t>},
+    SampleType{OIIO::TypeDesc::INT32, OIIO::TypeDesc::INT32, "int32", make_samples<std::int32_t>},
+    SampleType{OIIO::TypeDesc::HALF, OIIO::TypeDesc::FLOAT, "half", make_samples<float>},
+    SampleType{OIIO::TypeDesc::FLOAT, OIIO::TypeDesc::FLOAT, "float", make_samples<float>},
+    SampleType{OIIO::TypeDesc::DOUBLE, OIIO::TypeDesc::DOUBLE, "double", make_samples<double>},
+};
+
+const SampleType& find_sample_type(const std::filesystem::path& path, const OIIO::ImageSpec& spec) {
+  for (const SampleType& type : kSampleTypes) {
+    if (spec.format.basetype == type.stored) return type;
+  }
+  throw file_error(
+      path, std::string("its samples are of type ") + spec.format.c_str() + ", which is not supported");
+}
+
+/// Messages of libraries may hold several lines and the path once more.
+std::string first_line(const std::string& text) {
+  return text.empty() ? "damaged or truncated" : text.substr(0, text.find('\n'));
+}
+
+std::unique_ptr<OIIO::ImageInput> open_image(const std::filesystem::path& path, FileFormat format,
+                                             OIIO::ImageSpec& spec) {
+  std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(to_string(format));
+  if (!input) throw file_error(path, "cannot be read: no reader for " + std::string(to_string(format)));
+  OIIO::ImageSpec configuration;
+  configuration.attribute("oiio:UnassociatedAlpha", 1);  // heights are not to be multiplied by alpha
+  if (!input->open(path.string(), spec, configuration)) {
+    throw file_error(
+        path, std::string("cannot be read as ") + to_string(format) + ": " + first_line(input->geterror()));
+  }
+  return input;
+}
+
+}  // namespace
+
+StoredImage read_image(const std::filesystem::path& path, FileFormat format, std::uint64_t memory_limit) {
+  if (format == FileFormat::png) return read_png(path, memory_limit);
+
+  OIIO::ImageSpec spec;
+  const std::unique_ptr<OIIO::ImageInput> input = open_image(path, format, spec);
+  if (spec.deep || spec.depth > 1) throw file_error(path, "holds deep or volume data, not an image");
+  const SampleType& type = find_sample_type(path, spec);
+  const OIIO::TypeDesc kept(type.kept);
+  const auto channels = static_cast<std::uint64_t>(spec.nchannels);
+  check_map_size(path, static_cast<std::uint64_t>(spec.width), static_cast<std::uint64_t>(spec.height),
+                 bytes_per_texel(channels * kept.size()), memory_limit);
+
+  StoredImage image;
+  image.width = spec.width;
+  image.height = spec.height;
+  image.sample_type = type.name;
+  image.bits = spec.get_int_attribute("oiio:BitsPerSample", static_cast<int>(spec.format.size()) * 8);
+  image.is_integer = !spec.format.is_floating_point();
+  image.channels = spec.channelnames;
+  if (format == FileFormat::tiff) image.no_data = read_tiff_no_data(path);
+  image.samples = type.make(spec.image_pixels() * channels);
+  const bool read = std::visit(
+      [&](auto& samples) { return input->read_image(0, 0, 0, spec.nchannels, kept, samples.data()); },
+      image.samples);
+  // The readers of TIFF and JPEG fill what a truncated file lacks, say so in a message, and report success.
+  if (!read || input->has_error()) {
+    throw file_error(path, "is damaged or truncated: " + first_line(input->geterror()));
+  }
+  return image;
+}
+
+}  // namespace heightlight

@@ -1,0 +1,52 @@
+#include <cmath>
+#include <limits>
+
+#include "core/progress.h"
+#include "heightlight/transport.h"
+
+namespace heightlight {
+namespace {
+
+/// ⟨a, b⟩ with every texel weighing its area: reciprocity, area_i F_ij = area_j F_ji, makes F symmetric under it.
+double area_product(const TexelVector& a, const TexelVector& b, const Surface& surface) {
+  double sum = 0;
+  for (Eigen::Index i = 0; i < a.size(); ++i) {
+    const float up = surface.normal.values[static_cast<std::size_t>(i)].z();
+    if (!std::isnan(up)) sum += a[i] * b[i] / up;
+  }
+  return sum;
+}
+
+}  // namespace
+
+BounceSeries bounce(const FormFactors& form_factors, const Surface& surface, int bounces,
+                    const std::function<void(int, const TexelVector&)>& visit, bool quiet) {
+  Progress progress("bounces", bounces + 1, quiet);
+  BounceSeries series;
+  series.bounces = bounces;
+  series.last = direct_irradiance(form_factors);
+  series.sum = series.last;
+  visit(0, series.last);
+  for (int b = 1; b <= bounces; ++b) {
+    series.last = gather(form_factors, series.last);
+    series.sum += series.last;
+    visit(b, series.last);
+    progress.add(1);
+  }
+  series.next = gather(form_factors, series.last);
+  const double length = area_product(series.last, series.last, surface);
+  series.spectral_radius = length > 0 ? area_product(series.last, series.next, surface) / length : 0;
+  return series;
+}
+
+Map to_map(const TexelVector& values, const Surface& surface) {
+  Map map(surface.width(), surface.height());
+  for (std::size_t i = 0; i < map.size(); ++i) {
+    const bool missing = std::isnan(surface.map.height.values[i]);
+    map.values[i] = missing ? std::numeric_limits<float>::quiet_NaN()
+                            : static_cast<float>(values[static_cast<Eigen::Index>(i)]);
+  }
+  return map;
+}
+
+}  // namespace heightlight

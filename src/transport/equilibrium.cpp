@@ -1,0 +1,88 @@
+#include <Eigen/IterativeLinearSolvers>
+#include <Eigen/SparseCore>
+
+#include "heightlight/transport.h"
+
+// x = source + F ρ x is solved as (I − F ρ) x = source. Plain iteration is the bounces themselves and takes
+// ln ε / ln λ of them, thousands in a deep well; BiCGSTAB takes a few dozen. Eigen runs it on anything that it can
+// multiply with a vector, given the traits below.
+
+namespace heightlight {
+class LossOperator;
+}
+
+namespace Eigen::internal {
+template <>
+struct traits<heightlight::LossOperator> : traits<SparseMatrix<double>> {};
+}  // namespace Eigen::internal
+
+namespace heightlight {
+
+/// I − F diag(ρ), known by its products only.
+class LossOperator : public Eigen::EigenBase<LossOperator> {
+ public:
+  using Scalar = double;
+  using RealScalar = double;
+  using StorageIndex = int;
+  enum { ColsAtCompileTime = Eigen::Dynamic, MaxColsAtCompileTime = Eigen::Dynamic, IsRowMajor = false };
+
+  LossOperator(const FormFactors& form_factors, const TexelVector& albedo)
+      : form_factors_(form_factors), albedo_(albedo) {}
+
+  Eigen::Index rows() const { return albedo_.size(); }
+  Eigen::Index cols() const { return albedo_.size(); }
+
+  template <class Right>
+  Eigen::Product<LossOperator, Right, Eigen::AliasFreeProduct> operator*(const Eigen::MatrixBase<Right>& right) const {
+    return {*this, right.derived()};
+  }
+
+  TexelVector times(const TexelVector& x) const { return x - gather(form_factors_, albedo_.cwiseProduct(x)); }
+
+ private:
+  const FormFactors& form_factors_;
+  const TexelVector& albedo_;
+};
+
+}  // namespace heightlight
+
+namespace Eigen::internal {
+template <class Right>
+struct generic_product_impl<heightlight::LossOperator, Right, SparseShape, DenseShape, GemvProduct>
+    : generic_product_impl_base<heightlight::LossOperator, Right,
+                                generic_product_impl<heightlight::LossOperator, Right>> {
+  template <class Destination>
+  static void scaleAndAddTo(Destination& destination, const heightlight::LossOperator& left, const Right& right,
+                            const double& scale) {
+    destination += scale * left.times(right);
+  }
+};
+}  // namespace Eigen::internal
+
+namespace heightlight {
+
+Equilibrium solve_equilibrium(const FormFactors& form_factors, const TexelVector& source, const TexelVector& albedo,
+                              const TexelVector& guess) {
+  Equilibrium result;
+  const double size = source.norm();
+  if (size == 0) {
+    result.irradiance = source;
+    return result;
+  }
+  const LossOperator loss(form_factors, albedo);
+  Eigen::BiCGSTAB<LossOperator, Eigen::IdentityPreconditioner> solver;
+  solver.setTolerance(1e-9);
+  solver.setMaxIterations(2000);
+  solver.compute(loss);
+  result.irradiance = solver.solveWithGuess(source, guess);
+  result.iterations = static_cast<int>(solver.iterations());
+  result.residual = (source - loss.times(result.irradiance)).norm() / size;
+  return result;
+}
+
+Equilibrium solve_tail(const FormFactors& form_factors, const BounceSeries& series) {
+  const TexelVector white = TexelVector::Ones(series.next.size());
+  return solve_equilibrium(form_factors, series.next, white, series.next);
+}
+
+}  // namespace heightlight

@@ -1,0 +1,116 @@
+#include "visibility/ray_caster.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "heightlight/error.h"
+
+namespace heightlight {
+namespace {
+
+constexpr int kMostRays = 65536;
+constexpr float kSteepest = 1e30F;  // finite, so that 0 · slope stays 0
+
+int checked_ray_count(int rays) {
+  if (rays < 1 || rays > kMostRays) {
+    throw UsageError("--rays " + std::to_string(rays) + ": must be from 1 to " + std::to_string(kMostRays));
+  }
+  return rays;
+}
+
+std::size_t padded(int rays) { return static_cast<std::size_t>(rays + kRayPadding); }
+
+/// Two unit vectors that complete `n` (z ≥ 0) to a right-handed frame; no branch near the pole (Duff et al.
+/// 2017).
+struct Frame {
+  Eigen::Vector3f tangent, bitangent, normal;
+
+  explicit Frame(const Eigen::Vector3f& n) : normal(n) {
+    const float a = -1.0F / (1.0F + n.z());
+    const float b = n.x() * n.y() * a;
+    tangent = {1.0F + n.x() * n.x() * a, b, -n.x()};
+    bitangent = {b, 1.0F + n.y() * n.y() * a, -n.y()};
+  }
+};
+
+}  // namespace
+
+RayWorkspace::RayWorkspace(int rays)
+    : step_u(padded(rays)),
+      step_v(padded(rays)),
+      slope(padded(rays)),
+      cell(padded(rays)),
+      across(padded(rays)),
+      down(padded(rays)) {}
+
+RayCaster::RayCaster(const Surface& surface, const RayOptions& options)
+    : surface_(surface),
+      directions_(make_hemisphere_directions(checked_ray_count(options.rays), options.seed)) {
+  if (surface.cell_columns() > 0 && surface.cell_rows() > 0) pyramid_ = build_maximum_pyramid(surface);
+  grid_ = make_ray_grid(surface, pyramid_);
+}
+
+std::uint64_t ray_caster_bytes(const Surface& surface, const RayOptions& options) {
+  return maximum_pyramid_bytes(std::max(1, surface.cell_columns()), std::max(1, surface.cell_rows())) +
+         static_cast<std::uint64_t>(options.rays) * HemisphereDirections::kTables * 3 * sizeof(float);
+}
+
+RayBundle RayCaster::aim(int row, int column, const LatticeTurn& turn, RayWorkspace& workspace) const {
+  const Frame frame(surface_.normal(row, column));
+  const auto table = static_cast<std::size_t>(turn.table);
+  const float* cosine = directions_.cosine[table].data();
+  const float* sine = directions_.sine[table].data();
+  const float* azimuth_cosine = directions_.azimuth_cosine.data();
+  const float* azimuth_sine = directions_.azimuth_sine.data();
+  const float per_x = static_cast<float>(1 / surface_.map.spacing.x);
+  const float per_y = static_cast<float>(-1 / surface_.map.spacing.y);  // rows run down, y up
+  for (int k = 0; k < directions_.count; ++k) {
+    const float along_tangent = sine[k] * (azimuth_cosine[k] * turn.cosine - azimuth_sine[k] * turn.sine);
+    const float along_bitangent = sine[k] * (azimuth_sine[k] * turn.cosine + azimuth_cosine[k] * turn.sine);
+    const float x = along_tangent * frame.tangent.x() + along_bitangent * frame.bitangent.x() +
+                    cosine[k] * frame.normal.x();
+    const float y = along_tangent * frame.tangent.y() + along_bitangent * frame.bitangent.y() +
+                    cosine[k] * frame.normal.y();
+    const float z = along_tangent * frame.tangent.z() + along_bitangent * frame.bitangent.z() +
+                    cosine[k] * frame.normal.z();
+    const float u = x * per_x;
+    const float v = y * per_y;
+    const float texels = std::sqrt(u * u + v * v);
+    const float per_texel = 1.0F / std::max(texels, 1e-30F);
+    workspace.step_u[static_cast<std::size_t>(k)] = u * per_texel;
+    workspace.step_v[static_cast<std::size_t>(k)] = v * per_texel;
+    workspace.slope[static_cast<std::size_t>(k)] = std::clamp(z * per_texel, -kSteepest, kSteepest);
+  }
+  RayBundle bundle;
+  bundle.column = column;
+  bundle.row = row;
+  bundle.height = surface_.map.height(row, column);
+  bundle.count = directions_.count;
+  bundle.step_u = workspace.step_u.data();
+  bundle.step_v = workspace.step_v.data();
+  bundle.slope = workspace.slope.data();
+  return bundle;
+}
+
+void RayCaster::view(int row, int column, RayWorkspace& workspace, ReceiverView& view) const {
+  view.rays = 0;
+  view.ray.clear();
+  view.place.clear();
+  if (std::isnan(surface_.map.height(row, column))) return;
+  const LatticeTurn turn = directions_.turn(row, column);
+  view.rays = directions_.count;
+  view.weight_table = static_cast<std::uint8_t>(turn.table);
+  view.weight = directions_.weight[static_cast<std::size_t>(turn.table)].data();
+  if (pyramid_.levels == 0) return;  // no cells, nothing in the way
+  const RayBundle bundle = aim(row, column, turn, workspace);
+  traverse(grid_, bundle, {workspace.cell.data(), workspace.across.data(), workspace.down.data()});
+  for (int k = 0; k < bundle.count; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    if (workspace.cell[i] == kSky) continue;
+    view.ray.push_back(static_cast<std::uint16_t>(k));
+    view.place.push_back(
+        {static_cast<std::uint32_t>(workspace.cell[i]), workspace.across[i], workspace.down[i]});
+  }
+}
+
+}  // namespace heightlight

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <vector>
+
+#include "heightlight/visibility.h"
+#include "visibility/hemisphere_directions.h"
+#include "visibility/ray_traversal.h"
+
+namespace heightlight {
+
+/// Buffers that one thread reuses from receiver to receiver.
+struct RayWorkspace {
+  explicit RayWorkspace(int rays);
+
+  std::vector<float> step_u, step_v, slope;
+  std::vector<std::int32_t> cell;
+  std::vector<float> across, down;
+};
+
+/// Sends rays from the vertices of a surface. Holds what all receivers share; the surface must outlive it.
+class RayCaster {
+ public:
+  /// Throws UsageError unless 1 ≤ options.rays ≤ 65536.
+  RayCaster(const Surface& surface, const RayOptions& options);
+
+  int rays() const { return directions_.count; }
+  const HemisphereDirections& directions() const { return directions_; }
+
+  /// What the receiver at (row, column) sees. Safe to call from many threads with a workspace each.
+  void view(int row, int column, RayWorkspace& workspace, ReceiverView& view) const;
+
+  /// The grid rays of a receiver that is present: for `view`, and for comparing with other ray tracers.
+  RayBundle aim(int row, int column, const LatticeTurn& turn, RayWorkspace& workspace) const;
+
+  const RayGrid& grid() const { return grid_; }
+
+ private:
+  const Surface& surface_;
+  MaximumPyramid pyramid_;
+  RayGrid grid_;
+  HemisphereDirections directions_;
+};
+
+/// Bytes that a caster for such a surface takes.
+std::uint64_t ray_caster_bytes(const Surface& surface, const RayOptions& options);
+
+}  // namespace heightlight

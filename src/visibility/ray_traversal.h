@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstdint>
+
+#include "heightlight/surface.h"
+#include "surface/maximum_pyramid.h"
+
+// Where a ray meets the surface, exactly: no fixed steps, no nudge.
+//
+// A ray leaves the vertex (u₀, v₀) of height z₀ and runs over the grid: after s texels of way it is at
+//     u = u₀ + s g_u,   v = v₀ + s g_v,   z = z₀ + s m,      g_u² + g_v² = 1,
+// with m its slope (height per texel of way, of either sign). Let d(s) be the height of the surface above the
+// ray. Along a ray the surface is piecewise linear, with breakpoints where the ray crosses a column, a row or
+// a cell's diagonal; d is too. The ray starts at d(0) = 0 and is blocked at the first breakpoint with d > 0;
+// between that one and the breakpoint before, the linear d gives the place. Because the test asks whether the
+// ray is *below* the surface, rounding can delay a hit to the next breakpoint but never lets a ray through.
+//
+// A block of the maximum pyramid is skipped when the ray stays above its highest point; otherwise the walk
+// descends into it, to the cell if need be. Leaving a block by a border that its parent shares, the walk
+// climbs one level. The position is kept as an integer cell, so that every step makes progress, whatever the
+// rounding.
+//
+// Missing samples make d NaN, which is never > 0: holes occlude nothing. A ray that comes out of a hole below
+// the surface is blocked by the hole's edge.
+
+namespace heightlight {
+
+/// The surface as the traversal reads it.
+struct RayGrid {
+  const float* height = nullptr;  ///< row-major, `width` per row
+  int width = 0;
+  int cell_columns = 0;
+  int cell_rows = 0;
+  bool tiles = false;
+  float highest = 0;
+  const MaximumPyramid* pyramid = nullptr;
+};
+
+RayGrid make_ray_grid(const Surface& surface, const MaximumPyramid& pyramid);
+
+/// Rays from one vertex, as arrays of `count` entries padded to a multiple of kRayPadding.
+struct RayBundle {
+  int column = 0;
+  int row = 0;
+  float height = 0;
+  int count = 0;
+  const float* step_u = nullptr;  ///< g_u
+  const float* step_v = nullptr;  ///< g_v
+  const float* slope = nullptr;   ///< m
+};
+
+/// Where each ray ended; arrays of `count` entries like the bundle's.
+struct RayEnds {
+  std::int32_t* cell = nullptr;  ///< upper left vertex of the cell that was hit, kSky where none was
+  float* across = nullptr;       ///< place in the cell, in [0, 1]; unset for rays that reach the sky
+  float* down = nullptr;
+};
+
+constexpr std::int32_t kSky = -1;
+constexpr int kRayPadding = 16;
+
+/// Tiles a ray may cross before it counts as having reached the sky: only rays within relief / (4096 × width)
+/// of the horizontal ever do.
+constexpr int kMostWraps = 4096;
+
+/// |g_u| and |g_v| are kept from zero by this much, which moves a ray by less than a float can tell.
+constexpr float kLeastStep = 1e-12F;
+
+/// The readable one: ray by ray.
+void traverse_scalar(const RayGrid& grid, const RayBundle& bundle, const RayEnds& ends);
+
+/// The fast one: as many rays side by side as the machine has lanes, the next ray taking a finished one's
+/// lane. Bit for bit the same results.
+void traverse(const RayGrid& grid, const RayBundle& bundle, const RayEnds& ends);
+
+}  // namespace heightlight

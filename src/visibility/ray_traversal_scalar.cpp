@@ -1,0 +1,176 @@
+#include <algorithm>
+#include <cmath>
+
+#include "visibility/ray_traversal.h"
+
+namespace heightlight {
+namespace {
+
+float clamp_unit(float value) { return std::min(std::max(value, 0.0F), 1.0F); }
+
+float away_from_zero(float step) {
+  return std::fabs(step) < kLeastStep ? std::copysign(kLeastStep, step) : step;
+}
+
+/// The four heights of a cell and the surface over it.
+struct Cell {
+  float upper_left, upper_right, lower_left, lower_right;
+
+  Cell(const RayGrid& grid, int row, int column) {
+    const int right = column + 1 == grid.width ? 0 : column + 1;
+    const int below = grid.tiles && row + 1 == grid.cell_rows ? 0 : row + 1;
+    const float* upper = grid.height + static_cast<std::ptrdiff_t>(row) * grid.width;
+    const float* lower = grid.height + static_cast<std::ptrdiff_t>(below) * grid.width;
+    upper_left = upper[column];
+    upper_right = upper[right];
+    lower_left = lower[column];
+    lower_right = lower[right];
+  }
+
+  float height_at(float across, float down) const {
+    return across >= down
+               ? upper_left + across * (upper_right - upper_left) + down * (lower_right - upper_right)
+               : upper_left + down * (lower_left - upper_left) + across * (lower_right - lower_left);
+  }
+
+  float height_on_diagonal(float along) const { return upper_left + along * (lower_right - upper_left); }
+};
+
+struct Walker {
+  const RayGrid& grid;
+  float z0, step_u, step_v, slope, per_u, per_v, per_diagonal;
+  float u0, v0;  // moved by whole tiles when the ray wraps, so that positions stay small
+  int column, row, level = 0, wraps = 0;
+  float s = 0;
+
+  Walker(const RayGrid& g, const RayBundle& bundle, int ray)
+      : grid(g),
+        z0(bundle.height),
+        step_u(away_from_zero(bundle.step_u[ray])),
+        step_v(away_from_zero(bundle.step_v[ray])),
+        slope(bundle.slope[ray]),
+        per_u(1.0F / step_u),
+        per_v(1.0F / step_v),
+        per_diagonal(1.0F / (step_u - step_v)),
+        u0(static_cast<float>(bundle.column)),
+        v0(static_cast<float>(bundle.row)),
+        column(step_u > 0 ? bundle.column : bundle.column - 1),
+        row(step_v > 0 ? bundle.row : bundle.row - 1) {}
+
+  /// Brings a cell index that left the map back by a whole tile. False where nothing lies beyond.
+  bool wrap() {
+    const bool outside = column < 0 || column >= grid.cell_columns || row < 0 || row >= grid.cell_rows;
+    if (!outside) return true;
+    if (!grid.tiles || ++wraps > kMostWraps) return false;
+    const int columns = grid.cell_columns;
+    const int rows = grid.cell_rows;
+    const int tiles_u = column < 0 ? 1 : column >= columns ? -1 : 0;
+    const int tiles_v = row < 0 ? 1 : row >= rows ? -1 : 0;
+    column += tiles_u * columns;
+    row += tiles_v * rows;
+    u0 += static_cast<float>(tiles_u * columns);
+    v0 += static_cast<float>(tiles_v * rows);
+    return true;
+  }
+
+  float z_at(float way) const { return z0 + way * slope; }
+
+  /// Is the ray below the surface at the cell's diagonal or where it leaves? Then sets the place.
+  bool blocked_in_cell(float s_exit, float& across, float& down) const {
+    const Cell cell(grid, row, column);
+    const float left = static_cast<float>(column);
+    const float top = static_cast<float>(row);
+    const auto u_at = [&](float way) { return clamp_unit(u0 + way * step_u - left); };
+    const auto v_at = [&](float way) { return clamp_unit(v0 + way * step_v - top); };
+
+    float s_before = s;
+    float d_before = cell.height_at(u_at(s), v_at(s)) - z_at(s);
+    const float s_diagonal = ((left - top) - (u0 - v0)) * per_diagonal;
+    float s_after = s_exit;
+    float d_after = cell.height_at(u_at(s_exit), v_at(s_exit)) - z_at(s_exit);
+    if (s_diagonal > s && s_diagonal < s_exit) {
+      const float d_diagonal = cell.height_on_diagonal(u_at(s_diagonal)) - z_at(s_diagonal);
+      if (d_diagonal > 0) {
+        s_after = s_diagonal;
+        d_after = d_diagonal;
+      } else {
+        s_before = s_diagonal;
+        d_before = d_diagonal;
+      }
+    }
+    if (!(d_after > 0)) return false;
+    // Linear between d_before ≤ 0 and d_after > 0; at the later breakpoint where the earlier one is a hole,
+    // at the earlier one where rounding or the receiver's own facet has it above already.
+    const float share = d_before < 0 ? d_before / (d_before - d_after) : d_before >= 0 ? 0.0F : 1.0F;
+    const float s_hit = s_before + share * (s_after - s_before);
+    across = u_at(s_hit);
+    down = v_at(s_hit);
+    return true;
+  }
+
+  /// Walks to the first place where the ray is blocked; kSky where there is none.
+  std::int32_t walk(float& across, float& down) {
+    if (!wrap()) return kSky;
+    for (;;) {
+      const int mask = ~((1 << level) - 1);
+      const int left = column & mask;
+      const int top = row & mask;
+      const int right = std::min(left + (1 << level), grid.cell_columns);
+      const int bottom = std::min(top + (1 << level), grid.cell_rows);
+      const int border_u = step_u > 0 ? right : left;
+      const int border_v = step_v > 0 ? bottom : top;
+      const float s_u = (static_cast<float>(border_u) - u0) * per_u;
+      const float s_v = (static_cast<float>(border_v) - v0) * per_v;
+      const float s_exit = std::max(s, std::min(s_u, s_v));
+      const float z_lowest = z_at(slope < 0 ? s_exit : s);
+
+      if (z_lowest >= grid.highest && slope >= 0) return kSky;
+      const std::int32_t block = grid.pyramid->index(level, row, column);
+      if (z_lowest < grid.pyramid->highest[static_cast<std::size_t>(block)]) {
+        if (level > 0) {
+          --level;
+          continue;
+        }
+        if (blocked_in_cell(s_exit, across, down)) return row * grid.width + column;
+      }
+
+      const bool crosses_u = s_u <= s_v;
+      if (crosses_u) {
+        column = step_u > 0 ? right : left - 1;
+        row = std::clamp(static_cast<int>(std::floor(v0 + s_exit * step_v)), top, bottom - 1);
+      } else {
+        row = step_v > 0 ? bottom : top - 1;
+        column = std::clamp(static_cast<int>(std::floor(u0 + s_exit * step_u)), left, right - 1);
+      }
+      const int border = crosses_u ? border_u : border_v;
+      const int parent_mask = (2 << level) - 1;
+      const bool leaves_parent =
+          (border & parent_mask) == 0 || border == (crosses_u ? grid.cell_columns : grid.cell_rows);
+      if (leaves_parent && level + 1 < grid.pyramid->levels) ++level;
+      s = s_exit;
+      if (!wrap()) return kSky;
+    }
+  }
+};
+
+}  // namespace
+
+RayGrid make_ray_grid(const Surface& surface, const MaximumPyramid& pyramid) {
+  RayGrid grid;
+  grid.height = surface.map.height.values.data();
+  grid.width = surface.width();
+  grid.cell_columns = surface.cell_columns();
+  grid.cell_rows = surface.cell_rows();
+  grid.tiles = surface.tiles();
+  grid.highest = surface.highest;
+  grid.pyramid = &pyramid;
+  return grid;
+}
+
+void traverse_scalar(const RayGrid& grid, const RayBundle& bundle, const RayEnds& ends) {
+  for (int ray = 0; ray < bundle.count; ++ray) {
+    ends.cell[ray] = Walker(grid, bundle, ray).walk(ends.across[ray], ends.down[ray]);
+  }
+}
+
+}  // namespace heightlight

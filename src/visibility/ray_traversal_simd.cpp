@@ -1,0 +1,324 @@
+// The lanes of the vector hold rays; each iteration moves every lane by one block of the pyramid. The
+// arithmetic is ray_traversal_scalar.cpp's, operation for operation and without fused multiply-add, so that
+// results are the same.
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+
+#include "visibility/ray_traversal.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "visibility/ray_traversal_simd.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace heightlight::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using F = hn::ScalableTag<float>;
+using I = hn::RebindToSigned<F>;
+using VF = hn::Vec<F>;
+using VI = hn::Vec<I>;
+using MF = hn::Mask<F>;
+using MI = hn::Mask<I>;
+
+constexpr F kF;
+constexpr I kI;
+constexpr int kMostLanes = HWY_MAX_BYTES / sizeof(float);
+
+// Looking into cells and refilling lanes cost more than a step, whether one lane needs them or all: lanes
+// wait until this many do. Measured on 8 lanes, fBm 512²: 6.0 million rays per second without waiting, 7.2
+// with.
+constexpr std::size_t kCellsDue = 4;
+constexpr std::size_t kRefillsDue = 2;
+
+MF to_float(MI mask) { return hn::RebindMask(kF, mask); }
+MI to_int(MF mask) { return hn::RebindMask(kI, mask); }
+VI set_int(int value) { return hn::Set(kI, value); }
+VF clamp_unit(VF value) { return hn::Min(hn::Max(value, hn::Zero(kF)), hn::Set(kF, 1.0F)); }
+
+VF away_from_zero(VF step) {
+  const VF least = hn::Set(kF, kLeastStep);
+  return hn::IfThenElse(hn::Lt(hn::Abs(step), least), hn::CopySign(least, step), step);
+}
+
+struct Cells {
+  VF upper_left, upper_right, lower_left, lower_right;
+
+  VF height_at(VF across, VF down) const {
+    const VF upper = hn::Add(hn::Add(upper_left, hn::Mul(across, hn::Sub(upper_right, upper_left))),
+                             hn::Mul(down, hn::Sub(lower_right, upper_right)));
+    const VF lower = hn::Add(hn::Add(upper_left, hn::Mul(down, hn::Sub(lower_left, upper_left))),
+                             hn::Mul(across, hn::Sub(lower_right, lower_left)));
+    return hn::IfThenElse(hn::Ge(across, down), upper, lower);
+  }
+};
+
+struct Lanes {
+  const RayGrid& grid;
+  const RayBundle& bundle;
+  const RayEnds& ends;
+  VF step_u, step_v, slope, per_u, per_v, per_diagonal, u0, v0, s;
+  VI column, row, level, wraps;
+  MI active;
+  int next = 0;
+  HWY_ALIGN std::int32_t ray_of_lane[kMostLanes];
+
+  Lanes(const RayGrid& g, const RayBundle& b, const RayEnds& e)
+      : grid(g),
+        bundle(b),
+        ends(e),
+        u0(hn::Zero(kF)),
+        v0(hn::Zero(kF)),
+        s(hn::Zero(kF)),
+        column(hn::Zero(kI)),
+        row(hn::Zero(kI)),
+        level(hn::Zero(kI)),
+        wraps(hn::Zero(kI)) {
+    std::fill(std::begin(ray_of_lane), std::end(ray_of_lane), -1);
+    refill();
+  }
+
+  /// Gives the next rays to the lanes that finished theirs; lanes for which none is left go idle.
+  void refill() {
+    HWY_ALIGN std::int32_t is_new[kMostLanes] = {};
+    HWY_ALIGN std::int32_t is_active[kMostLanes];
+    for (std::size_t lane = 0; lane < hn::Lanes(kI); ++lane) {
+      if (ray_of_lane[lane] < 0 && next < bundle.count) {
+        ray_of_lane[lane] = next++;
+        is_new[lane] = -1;
+      }
+      is_active[lane] = ray_of_lane[lane] >= 0 ? -1 : 0;
+    }
+    active = hn::MaskFromVec(hn::Load(kI, is_active));
+    const MI fresh = hn::MaskFromVec(hn::Load(kI, is_new));
+    const VI ray = hn::Max(hn::Load(kI, ray_of_lane), hn::Zero(kI));
+    step_u = away_from_zero(hn::GatherIndex(kF, bundle.step_u, ray));
+    step_v = away_from_zero(hn::GatherIndex(kF, bundle.step_v, ray));
+    slope = hn::GatherIndex(kF, bundle.slope, ray);
+    const VF one = hn::Set(kF, 1.0F);
+    per_u = hn::Div(one, step_u);
+    per_v = hn::Div(one, step_v);
+    per_diagonal = hn::Div(one, hn::Sub(step_u, step_v));
+    const MF fresh_f = to_float(fresh);
+    u0 = hn::IfThenElse(fresh_f, hn::Set(kF, static_cast<float>(bundle.column)), u0);
+    v0 = hn::IfThenElse(fresh_f, hn::Set(kF, static_cast<float>(bundle.row)), v0);
+    s = hn::IfThenZeroElse(fresh_f, s);
+    level = hn::IfThenZeroElse(fresh, level);
+    wraps = hn::IfThenZeroElse(fresh, wraps);
+    // Going down the axis, the first cell is the one before the vertex.
+    const VI first_column =
+        hn::Sub(set_int(bundle.column), hn::IfThenElseZero(to_int(hn::Le(step_u, hn::Zero(kF))), set_int(1)));
+    const VI first_row =
+        hn::Sub(set_int(bundle.row), hn::IfThenElseZero(to_int(hn::Le(step_v, hn::Zero(kF))), set_int(1)));
+    column = hn::IfThenElse(fresh, first_column, column);
+    row = hn::IfThenElse(fresh, first_row, row);
+  }
+
+  /// Brings lanes that left the map back by a whole tile; returns those beyond which nothing lies.
+  MI wrap() {
+    const VI columns = set_int(grid.cell_columns);
+    const VI rows = set_int(grid.cell_rows);
+    const VI zero = hn::Zero(kI);
+    const MI left = hn::Lt(column, zero);
+    const MI right = hn::Not(hn::Lt(column, columns));
+    const MI above = hn::Lt(row, zero);
+    const MI below = hn::Not(hn::Lt(row, rows));
+    const MI outside = hn::And(active, hn::Or(hn::Or(left, right), hn::Or(above, below)));
+    if (HWY_LIKELY(hn::AllFalse(kI, outside))) return outside;
+    const VI shift_u = hn::IfThenElse(left, columns, hn::IfThenElseZero(right, hn::Neg(columns)));
+    const VI shift_v = hn::IfThenElse(above, rows, hn::IfThenElseZero(below, hn::Neg(rows)));
+    wraps = hn::Add(wraps, hn::IfThenElseZero(outside, set_int(1)));
+    const MI ended = grid.tiles ? hn::And(outside, hn::Gt(wraps, set_int(kMostWraps))) : outside;
+    column = hn::Add(column, hn::IfThenElseZero(outside, shift_u));
+    row = hn::Add(row, hn::IfThenElseZero(outside, shift_v));
+    u0 = hn::Add(u0, hn::ConvertTo(kF, hn::IfThenElseZero(outside, shift_u)));
+    v0 = hn::Add(v0, hn::ConvertTo(kF, hn::IfThenElseZero(outside, shift_v)));
+    return ended;
+  }
+
+  VF z_at(VF way) const { return hn::Add(hn::Set(kF, bundle.height), hn::Mul(way, slope)); }
+
+  Cells gather_cells() const {
+    const VI one = set_int(1);
+    const VI beyond_right = hn::Add(column, one);
+    const VI right = hn::IfThenZeroElse(hn::Eq(beyond_right, set_int(grid.width)), beyond_right);
+    const VI beyond_below = hn::Add(row, one);
+    const VI below = grid.tiles
+                         ? hn::IfThenZeroElse(hn::Eq(beyond_below, set_int(grid.cell_rows)), beyond_below)
+                         : beyond_below;
+    const VI width = set_int(grid.width);
+    const VI upper = hn::Mul(row, width);
+    const VI lower = hn::Mul(below, width);
+    return {hn::GatherIndex(kF, grid.height, hn::Add(upper, column)),
+            hn::GatherIndex(kF, grid.height, hn::Add(upper, right)),
+            hn::GatherIndex(kF, grid.height, hn::Add(lower, column)),
+            hn::GatherIndex(kF, grid.height, hn::Add(lower, right))};
+  }
+
+  MF blocked_in_cell(VF s_exit, VF& across, VF& down) const {
+    const Cells cells = gather_cells();
+    const VF zero = hn::Zero(kF);
+    const VF left = hn::ConvertTo(kF, column);
+    const VF top = hn::ConvertTo(kF, row);
+    const auto u_at = [&](VF way) { return clamp_unit(hn::Sub(hn::Add(u0, hn::Mul(way, step_u)), left)); };
+    const auto v_at = [&](VF way) { return clamp_unit(hn::Sub(hn::Add(v0, hn::Mul(way, step_v)), top)); };
+
+    const VF d_exit = hn::Sub(cells.height_at(u_at(s_exit), v_at(s_exit)), z_at(s_exit));
+    const VF s_diagonal = hn::Mul(hn::Sub(hn::Sub(left, top), hn::Sub(u0, v0)), per_diagonal);
+    const MF has_diagonal = hn::And(hn::Gt(s_diagonal, s), hn::Lt(s_diagonal, s_exit));
+    const VF along = u_at(s_diagonal);
+    const VF on_diagonal =
+        hn::Add(cells.upper_left, hn::Mul(along, hn::Sub(cells.lower_right, cells.upper_left)));
+    const VF d_diagonal = hn::Sub(on_diagonal, z_at(s_diagonal));
+    const MF blocked_at_diagonal = hn::And(has_diagonal, hn::Gt(d_diagonal, zero));
+    const MF blocked = hn::Or(blocked_at_diagonal, hn::Gt(d_exit, zero));
+    if (hn::AllFalse(kF, blocked)) return blocked;
+
+    const MF from_diagonal = hn::AndNot(blocked_at_diagonal, has_diagonal);
+    const VF d_enter = hn::Sub(cells.height_at(u_at(s), v_at(s)), z_at(s));
+    const VF s_before = hn::IfThenElse(from_diagonal, s_diagonal, s);
+    const VF d_before = hn::IfThenElse(from_diagonal, d_diagonal, d_enter);
+    const VF s_after = hn::IfThenElse(blocked_at_diagonal, s_diagonal, s_exit);
+    const VF d_after = hn::IfThenElse(blocked_at_diagonal, d_diagonal, d_exit);
+    const VF crossing = hn::Div(d_before, hn::Sub(d_before, d_after));
+    const VF share = hn::IfThenElse(hn::Lt(d_before, zero), crossing,
+                                    hn::IfThenElse(hn::Ge(d_before, zero), zero, hn::Set(kF, 1.0F)));
+    const VF s_hit = hn::Add(s_before, hn::Mul(share, hn::Sub(s_after, s_before)));
+    across = u_at(s_hit);
+    down = v_at(s_hit);
+    return blocked;
+  }
+
+  /// Writes down the rays that ended, and marks their lanes as free.
+  void write_down(MI ends_here, MI hit, VF across, VF down) {
+    HWY_ALIGN std::int32_t cell[kMostLanes];
+    HWY_ALIGN float across_of_lane[kMostLanes];
+    HWY_ALIGN float down_of_lane[kMostLanes];
+    HWY_ALIGN std::int32_t ended[kMostLanes];
+    const VI place = hn::Add(hn::Mul(row, set_int(grid.width)), column);
+    hn::Store(hn::IfThenElse(hit, place, set_int(kSky)), kI, cell);
+    hn::Store(across, kF, across_of_lane);
+    hn::Store(down, kF, down_of_lane);
+    hn::Store(hn::VecFromMask(kI, ends_here), kI, ended);
+    for (std::size_t lane = 0; lane < hn::Lanes(kI); ++lane) {
+      if (ended[lane] == 0) continue;
+      const std::int32_t ray = ray_of_lane[lane];
+      ends.cell[ray] = cell[lane];
+      ends.across[ray] = across_of_lane[lane];
+      ends.down[ray] = down_of_lane[lane];
+      ray_of_lane[lane] = -1;
+    }
+  }
+
+  void run() {
+    const MaximumPyramid& pyramid = *grid.pyramid;
+    const VI one = set_int(1);
+    const VI zero = hn::Zero(kI);
+    const VF zero_f = hn::Zero(kF);
+    while (!hn::AllFalse(kI, active)) {
+      MI sky = wrap();
+      const VI size = hn::Shl(one, level);
+      const VI mask = hn::Neg(size);
+      const VI left = hn::And(column, mask);
+      const VI top = hn::And(row, mask);
+      const VI right = hn::Min(hn::Add(left, size), set_int(grid.cell_columns));
+      const VI bottom = hn::Min(hn::Add(top, size), set_int(grid.cell_rows));
+      const MI up_u = to_int(hn::Gt(step_u, zero_f));
+      const MI up_v = to_int(hn::Gt(step_v, zero_f));
+      const VI border_u = hn::IfThenElse(up_u, right, left);
+      const VI border_v = hn::IfThenElse(up_v, bottom, top);
+      const VF s_u = hn::Mul(hn::Sub(hn::ConvertTo(kF, border_u), u0), per_u);
+      const VF s_v = hn::Mul(hn::Sub(hn::ConvertTo(kF, border_v), v0), per_v);
+      const VF s_exit = hn::Max(s, hn::Min(s_u, s_v));
+      const VF z_lowest = z_at(hn::IfThenElse(hn::Lt(slope, zero_f), s_exit, s));
+
+      const MF above_all = hn::And(hn::Ge(z_lowest, hn::Set(kF, grid.highest)), hn::Ge(slope, zero_f));
+      sky = hn::Or(sky, hn::And(active, to_int(above_all)));
+      const MI going = hn::AndNot(sky, active);
+      const VI block =
+          hn::Add(hn::GatherIndex(kI, pyramid.offset.data(), level),
+                  hn::Add(hn::Shl(hn::Shr(row, level), hn::Sub(set_int(pyramid.stride_bits), level)),
+                          hn::Shr(column, level)));
+      const VF block_highest = hn::GatherIndex(kF, pyramid.highest.data(), hn::IfThenElseZero(going, block));
+      const MI near = hn::And(going, to_int(hn::Lt(z_lowest, block_highest)));
+      const MI descends = hn::And(near, hn::Gt(level, zero));
+      const MI at_cell = hn::AndNot(descends, near);
+
+      MI hit = hn::MaskFromVec(zero);
+      VF across = zero_f;
+      VF down = zero_f;
+      MI stays = at_cell;
+      const std::size_t cells = hn::CountTrue(kI, at_cell);
+      if (cells >= kCellsDue || (cells > 0 && cells == hn::CountTrue(kI, going))) {
+        hit = enter_cells(at_cell, s_exit, across, down);
+        stays = hit;
+      }
+
+      const MI advances = hn::AndNot(hn::Or(descends, stays), going);
+      const MI crosses_u = to_int(hn::Le(s_u, s_v));
+      const VI along_u = clamp_int(hn::Add(u0, hn::Mul(s_exit, step_u)), left, right);
+      const VI along_v = clamp_int(hn::Add(v0, hn::Mul(s_exit, step_v)), top, bottom);
+      const VI next_column =
+          hn::IfThenElse(crosses_u, hn::IfThenElse(up_u, right, hn::Sub(left, one)), along_u);
+      const VI next_row = hn::IfThenElse(crosses_u, along_v, hn::IfThenElse(up_v, bottom, hn::Sub(top, one)));
+      const VI border = hn::IfThenElse(crosses_u, border_u, border_v);
+      const VI last_border = hn::IfThenElse(crosses_u, set_int(grid.cell_columns), set_int(grid.cell_rows));
+      const VI parent_mask = hn::Sub(hn::Add(size, size), one);
+      const MI leaves_parent =
+          hn::Or(hn::Eq(hn::And(border, parent_mask), zero), hn::Eq(border, last_border));
+      const MI climbs = hn::And(advances, hn::And(leaves_parent, hn::Lt(level, set_int(pyramid.levels - 1))));
+      column = hn::IfThenElse(advances, next_column, column);
+      row = hn::IfThenElse(advances, next_row, row);
+      s = hn::IfThenElse(to_float(advances), s_exit, s);
+      level = hn::Add(level, hn::IfThenElseZero(climbs, one));
+      level = hn::Sub(level, hn::IfThenElseZero(descends, one));
+
+      const MI ends_here = hn::Or(sky, hit);
+      if (hn::AllFalse(kI, ends_here)) continue;
+      write_down(ends_here, hit, across, down);
+      active = hn::AndNot(ends_here, active);
+      if (hn::CountTrue(kI, active) + kRefillsDue <= hn::Lanes(kI) || hn::AllFalse(kI, active)) refill();
+    }
+  }
+
+ private:
+  /// `blocked_in_cell` for some lanes; the others look at the map's first cell, so that no index is out of
+  /// range.
+  MI enter_cells(MI at_cell, VF s_exit, VF& across, VF& down) {
+    const VI keep_column = column;
+    const VI keep_row = row;
+    column = hn::IfThenElseZero(at_cell, column);
+    row = hn::IfThenElseZero(at_cell, row);
+    const MI hit = hn::And(at_cell, to_int(blocked_in_cell(s_exit, across, down)));
+    column = keep_column;
+    row = keep_row;
+    return hit;
+  }
+
+  VI clamp_int(VF position, VI low, VI beyond) const {
+    const VI whole = hn::ConvertTo(kI, hn::Floor(position));
+    return hn::Min(hn::Max(whole, low), hn::Sub(beyond, set_int(1)));
+  }
+};
+
+void traverse_lanes(const RayGrid& grid, const RayBundle& bundle, const RayEnds& ends) {
+  if (bundle.count > 0) Lanes(grid, bundle, ends).run();
+}
+
+}  // namespace heightlight::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace heightlight {
+
+HWY_EXPORT(traverse_lanes);
+
+void traverse(const RayGrid& grid, const RayBundle& bundle, const RayEnds& ends) {
+  HWY_DYNAMIC_DISPATCH(traverse_lanes)(grid, bundle, ends);
+}
+
+}  // namespace heightlight
+#endif

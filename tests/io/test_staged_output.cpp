@@ -1,0 +1,106 @@
+#include <catch2/catch.hpp>
+
+#include "heightlight/error.h"
+#include "io/staged_output.h"
+#include "scratch_folder.h"
+
+using namespace heightlight;
+using Catch::Contains;
+namespace fs = std::filesystem;
+
+TEST_CASE("A committed folder holds its files and nothing else", "[io]") {
+  const ScratchFolder scratch;
+  {
+    StagedFolder out(scratch / "a/b/out/");
+    write_text(out.file("one.txt"), "1");
+    write_text(out.file("two.txt"), "2");
+    CHECK_FALSE(fs::exists(out.final_path("one.txt")));
+    out.commit();
+  }
+  CHECK(read_text(scratch / "a/b/out/one.txt") == "1");
+  CHECK(read_text(scratch / "a/b/out/two.txt") == "2");
+  CHECK(scratch.entry_count() == 5);  // three folders, two files
+}
+
+TEST_CASE("A folder without commit leaves no trace, not even the folders it created", "[io]") {
+  const ScratchFolder scratch;
+  {
+    StagedFolder out(scratch / "a/b/out");
+    write_text(out.file("one.txt"), "1");
+  }
+  CHECK(scratch.entry_count() == 0);
+}
+
+TEST_CASE("A folder without commit leaves what was there before", "[io]") {
+  const ScratchFolder scratch;
+  write_text(scratch / "one.txt", "old");
+  {
+    StagedFolder out(scratch.path());
+    write_text(out.file("one.txt"), "new");
+  }
+  CHECK(read_text(scratch / "one.txt") == "old");
+  CHECK(scratch.entry_count() == 1);
+}
+
+TEST_CASE("A commit replaces files of the same name and keeps the others", "[io]") {
+  const ScratchFolder scratch;
+  write_text(scratch / "one.txt", "old");
+  write_text(scratch / "other.txt", "other");
+  StagedFolder out(scratch.path());
+  write_text(out.file("one.txt"), "new");
+  out.commit();
+  CHECK(read_text(scratch / "one.txt") == "new");
+  CHECK(scratch.entry_count() == 2);
+}
+
+TEST_CASE("A commit that lacks a file names it and changes nothing", "[io]") {
+  const ScratchFolder scratch;
+  {
+    StagedFolder out(scratch / "out");
+    write_text(out.file("one.txt"), "1");
+    out.file("never_written.txt");
+    CHECK_THROWS_WITH(out.commit(), Contains("never_written.txt"));
+  }
+  CHECK(scratch.entry_count() == 0);
+}
+
+TEST_CASE("A folder that cannot be made is refused by name, and nothing is left behind", "[io]") {
+  const ScratchFolder scratch;
+  const fs::path file = write_text(scratch / "file", "x");
+  CHECK_THROWS_WITH(StagedFolder(file), Contains(file.string()) && Contains("not a folder"));
+  CHECK_THROWS_WITH(StagedFolder(file / "below"), Contains((file / "below").string()));
+  CHECK_THROWS_AS(StagedFolder(scratch / ("new/" + std::string(300, 'x'))), Error);  // a name too long for any disk
+  CHECK(scratch.entry_count() == 1);
+}
+
+TEST_CASE("A folder in the place of a result is refused before work is spent", "[io]") {
+  const ScratchFolder scratch;
+  fs::create_directory(scratch / "result.csv");
+  StagedFolder out(scratch.path());
+  CHECK_THROWS_WITH(out.file("result.csv"), Contains("result.csv") && Contains("directory"));
+  CHECK_THROWS_WITH(StagedFile(scratch / "result.csv"), Contains("result.csv") && Contains("directory"));
+}
+
+TEST_CASE("A staged file keeps its extension, appears on commit, and leaves nothing without", "[io]") {
+  const ScratchFolder scratch;
+  {
+    StagedFile out(scratch / "map.exr");
+    CHECK(out.path().extension() == ".exr");
+    write_text(out.path(), "new");
+    CHECK_FALSE(fs::exists(scratch / "map.exr"));
+  }
+  CHECK(scratch.entry_count() == 0);
+  {
+    StagedFile out(scratch / "map.exr");
+    write_text(out.path(), "new");
+    out.commit();
+  }
+  CHECK(read_text(scratch / "map.exr") == "new");
+  CHECK(scratch.entry_count() == 1);
+}
+
+TEST_CASE("A staged file needs a folder, and never replaces a device", "[io]") {
+  const ScratchFolder scratch;
+  CHECK_THROWS_WITH(StagedFile(scratch / "absent/map.exr"), Contains("absent/map.exr") && Contains("folder"));
+  CHECK_THROWS_WITH(StagedFile("/dev/null"), Contains("/dev/null") && Contains("not a regular file"));
+}
