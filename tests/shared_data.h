@@ -7,7 +7,8 @@
 
 namespace heightlight {
 
-/// A real map that is not part of the repository. Where it is absent the test says so loudly, and has nothing to check:
+/// A real map that is not part of the repository. Where it is absent the test says so loudly, and has nothing
+/// to check:
 ///     const auto path = find_shared_data("terrain/lakes_dem.tif");
 ///     if (!path) return;
 inline std::optional<std::filesystem::path> find_shared_data(const std::string& name) {

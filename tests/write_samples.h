@@ -9,8 +9,8 @@
 
 namespace heightlight {
 
-/// Writes samples (channels interleaved) as they are, through OpenImageIO, in the format that the extension names.
-/// `stored` is the sample type of the file where it differs from T.
+/// Writes samples (channels interleaved) as they are, through OpenImageIO, in the format that the extension
+/// names. `stored` is the sample type of the file where it differs from T.
 template <class T>
 std::filesystem::path write_samples(const std::filesystem::path& path, int width, int height,
                                     const std::vector<std::string>& channels, const std::vector<T>& samples,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <vector>
 
@@ -22,8 +23,8 @@ const char* to_string(AoKind kind);
 /// How E_b/π (ρ = 1) is spread over the texels of one bin.
 struct BounceStatistics {
   double mean = 0;
-  double stddev = 0;  ///< of the texels, not of the mean
-  double p05 = 0;     ///< percentiles, linearly interpolated between order statistics
+  double stddev = 0;  ///< of the texels (divided by their number), not of the mean
+  double p05 = 0;     ///< percentiles: order statistics, linearly interpolated at share × (count − 1)
   double p50 = 0;
   double p95 = 0;
 };
@@ -33,8 +34,8 @@ struct CurveBin {
   int bin = 0;
   double ao_lo = 0;
   double ao_hi = 0;
-  double ao_mean = 0;     ///< of the bin's own texels
-  std::size_t count = 0;  ///< > 0: empty bins are absent
+  double ao_mean = 0;                     ///< of the bin's own texels
+  std::size_t count = 0;                  ///< > 0: empty bins are absent
   std::vector<BounceStatistics> bounces;  ///< [b], b = 0 … K
   BounceStatistics tail;                  ///< Σ E_b/π over b > K; filled by CurveBuilder::add_tail
 };
@@ -43,29 +44,34 @@ struct CurveBin {
 struct BounceCurves {
   AoKind kind = AoKind::ambient_occlusion;
   int bins = 100;
-  std::vector<CurveBin> filled;  ///< ascending
+  std::vector<CurveBin> filled;  ///< ascending; each with as many bounces as were added
 };
 
 /// Sorts texels into AO bins once, then takes bounce after bounce; bounce maps need not be kept.
 class CurveBuilder {
  public:
-  /// `ao` in [0, 1], NaN where missing; 1 ≤ bins ≤ 10000 (UsageError otherwise).
+  /// `ao` in [0, 1] up to rounding, NaN where missing; 1 ≤ bins ≤ 10000 (UsageError otherwise). At most 2³²
+  /// texels.
   CurveBuilder(const Map& ao, AoKind kind, int bins);
 
-  /// Adds the next bounce, E_b/π per texel.
+  /// Adds the next bounce, E_b/π per texel of the map (ρ = 1).
   void add(const TexelVector& irradiance);
+
+  /// Sets what all later bounces bring together, Σ E_b/π over b > K.
   void add_tail(const TexelVector& irradiance);
 
   const BounceCurves& curves() const { return curves_; }
 
  private:
+  BounceStatistics statistics(std::size_t filled, const TexelVector& irradiance) const;
+
   BounceCurves curves_;
-  std::vector<std::size_t> texels_;  ///< grouped by filled bin
-  std::vector<std::size_t> begin_;   ///< of each filled bin's group
+  std::vector<std::uint32_t> texels_;  ///< grouped by filled bin, ascending inside a group
+  std::vector<std::size_t> begin_;     ///< of each filled bin's group, and the end of the last
 };
 
-/// `curves.csv` as the design says: ao_kind,bin,ao_lo,ao_hi,ao_mean,count,bounce,mean,stddev,p05,p50,p95, both kinds
-/// below each other, numbers with as many digits as a double needs. Throws Error naming the file.
+/// `curves.csv` as the design says: ao_kind,bin,ao_lo,ao_hi,ao_mean,count,bounce,mean,stddev,p05,p50,p95,
+/// both kinds below each other, numbers with as many digits as a double needs. Throws Error naming the file.
 void write_curves_csv(const std::filesystem::path& path, const std::vector<BounceCurves>& curves);
 
 /// One relief of a study of the height amplitude.
@@ -74,9 +80,14 @@ struct ReliefCurves {
   BounceCurves curves;      ///< over α
 };
 
-/// The notes' study of the height amplitude: bounce curves of the map with its heights scaled to several reliefs.
-/// Runs on a copy of at most `largest_side` texels a side (every n-th sample), since only the curves' shape is asked.
+/// The notes' study of the height amplitude (file 004): curves over α of the map with its heights scaled so
+/// that its relief is each share of its width (spacing × columns). Runs on a copy of at most `largest_side`
+/// texels a side, which keeps the map's extent and boundary, since only the curves' shape is asked: every
+/// n-th sample, or as near to it as a side that n does not divide allows. A level map stays level. Throws
+/// UsageError for a share that is not positive and finite, largest_side < 1 or bounces < 0, and what
+/// build_form_factors and CurveBuilder throw.
 std::vector<ReliefCurves> study_reliefs(const Heightmap& map, const std::vector<double>& relief_shares,
-                                        int largest_side, const FormFactorOptions& options, int bounces, int bins);
+                                        int largest_side, const FormFactorOptions& options, int bounces,
+                                        int bins);
 
 }  // namespace heightlight

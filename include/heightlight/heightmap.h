@@ -49,7 +49,7 @@ struct LoadOptions {
   std::optional<double> no_data;     ///< the value, as stored in the file, that means "missing"
   std::optional<std::string> channel;  ///< name (any case) or 0-based index; default: the only one, or grey
                                        ///< where all agree at every texel (alpha left out)
-  bool invert = false;  ///< the file holds depths: the highest value is the lowest place
+  bool invert = false;                 ///< the file holds depths: the highest value is the lowest place
 };
 
 /// Levels are counted up to here: as many as 16 bits can tell apart.

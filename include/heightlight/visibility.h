@@ -25,11 +25,25 @@ struct SurfacePoint {
 /// What one receiver's rays found.
 struct ReceiverView {
   int rays = 0;  ///< rays sent; 0 where the sample is missing
-  const float* weight =
+  const double* weight =
       nullptr;  ///< per ray, form factor of its direction: cosθ / Σ cosθ; `rays` of them, sum 1
   std::uint8_t weight_table = 0;    ///< which of the caster's weight tables that is
   std::vector<std::uint16_t> ray;   ///< of each hit: the ray's number, ascending
   std::vector<SurfacePoint> place;  ///< of each hit: where it ended
 };
+
+/// The sky's share of a receiver's hemisphere.
+struct SkyShare {
+  double ambient_occlusion = 1;  ///< α: of the solid angle
+  double sky_view_factor = 1;    ///< A: of the form factor, so that A + Σ hits' weights = 1
+};
+
+/// Of a view with at least one ray.
+SkyShare sky_share(const ReceiverView& view);
+
+/// Root mean square error of A from `options.rays` rays, measured on up to 256 receivers against sixteen
+/// times as many rays (65536 at most) that are turned otherwise. NaN where no sample is present; 0 where the
+/// surface has no facet.
+double estimate_ray_rmse(const Surface& surface, const RayOptions& options);
 
 }  // namespace heightlight

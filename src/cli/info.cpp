@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
 #include <cstdio>
 #include <memory>
 
@@ -10,50 +9,42 @@
 namespace heightlight {
 namespace {
 
-/// One line of the report: a label, and what printf makes of the rest.
-[[gnu::format(printf, 2, 3)]] void report(const char* label, const char* format, ...) {
-  std::printf("%-10s ", label);
-  std::va_list arguments;
-  va_start(arguments, format);
-  std::vprintf(format, arguments);
-  va_end(arguments);
-  std::printf("\n");
-}
-
 void report_file(const std::filesystem::path& path, const SourceFacts& facts) {
-  report("file", "%s", path.c_str());
+  std::printf("file       %s\n", path.c_str());
   if (facts.bits > 0) {
-    report("format", "%s, %s (%d bits per sample)", facts.format.c_str(), facts.sample_type.c_str(), facts.bits);
+    std::printf("format     %s, %s (%d bits per sample)\n", facts.format.c_str(), facts.sample_type.c_str(),
+                facts.bits);
   } else {
-    report("format", "%s", facts.format.c_str());
+    std::printf("format     %s\n", facts.format.c_str());
   }
-  report("channel", "%s (of %d)", facts.channel.c_str(), facts.channels);
-  report("stored", "%.9g to %.9g, %s%zu distinct levels%s", facts.lowest, facts.highest,
-         facts.levels > kMostLevels ? "more than " : "", std::min(facts.levels, kMostLevels),
-         facts.is_integer ? " (without unit; stretched to the relief)" : "");
-  if (facts.declared_no_data) report("no-data", "%.9g, says the file", *facts.declared_no_data);
-  report("sha256", "%s", facts.sha256.c_str());
+  std::printf("channel    %s (of %d)\n", facts.channel.c_str(), facts.channels);
+  std::printf("stored     %.9g to %.9g, %s%zu distinct levels%s\n", facts.lowest, facts.highest,
+              facts.levels > kMostLevels ? "more than " : "", std::min(facts.levels, kMostLevels),
+              facts.is_integer ? " (without unit; stretched to the relief)" : "");
+  if (facts.declared_no_data) std::printf("no-data    %.9g, says the file\n", *facts.declared_no_data);
+  std::printf("sha256     %s\n", facts.sha256.c_str());
 }
 
 void report_map(const Heightmap& map, const EdgeSteps& steps) {
   const int columns = map.height.width;
   const int rows = map.height.height;
   const double tall = relief(map);
-  report("size", "%d x %d samples", columns, rows);
-  report("spacing", "%.6g x %.6g", map.spacing.x, map.spacing.y);
-  report("extent", "%.6g x %.6g", columns * map.spacing.x, rows * map.spacing.y);
-  report("heights", "%.7g to %.7g", map.base, map.base + tall);
-  report("relief", "%.6g (%.3g of the width)", tall, tall / (columns * map.spacing.x));
-  report("boundary", "%s", to_string(map.boundary));
+  std::printf("size       %d x %d samples\n", columns, rows);
+  std::printf("spacing    %.6g x %.6g\n", map.spacing.x, map.spacing.y);
+  std::printf("extent     %.6g x %.6g\n", columns * map.spacing.x, rows * map.spacing.y);
+  std::printf("heights    %.7g to %.7g\n", map.base, map.base + tall);
+  std::printf("relief     %.6g (%.3g of the width)\n", tall, tall / (columns * map.spacing.x));
+  std::printf("boundary   %s\n", to_string(map.boundary));
   if (std::isnan(steps.across_x) && std::isnan(steps.across_y)) {
-    report("edges", "no samples to compare");
+    std::printf("edges      no samples to compare\n");
   } else {
-    report("edges", "%s; steps (rms) across and inside: x %.3g and %.3g, y %.3g and %.3g",
-           steps.wraps ? "wrap" : "do not wrap", steps.across_x, steps.inside_x, steps.across_y, steps.inside_y);
+    std::printf("edges      %s; steps (rms) across and inside: x %.3g and %.3g, y %.3g and %.3g\n",
+                steps.wraps ? "wrap" : "do not wrap", steps.across_x, steps.inside_x, steps.across_y,
+                steps.inside_y);
   }
   const std::size_t missing = count_missing(map);
   const double percent = 100 * static_cast<double>(missing) / static_cast<double>(map.height.size());
-  report("missing", "%zu of %zu samples (%.2f %%)", missing, map.height.size(), percent);
+  std::printf("missing    %zu of %zu samples (%.2f %%)\n", missing, map.height.size(), percent);
 }
 
 /// Values that programs write for missing samples, and that no relief on Earth has.
@@ -67,20 +58,23 @@ void report_warnings(const LoadedHeightmap& loaded, const EdgeSteps& steps) {
   const Heightmap& map = loaded.map;
   const double tall = relief(map);
   const double extent = std::max(map.height.width * map.spacing.x, map.height.height * map.spacing.y);
-  if (tall == 0) report("warning", "the map is level: it has no relief");
+  if (tall == 0) std::printf("warning    the map is level: it has no relief\n");
   if (is_usual_no_data(facts.lowest)) {
-    report("warning", "the lowest value stands for missing samples in many files: --no-data %.9g", facts.lowest);
+    std::printf("warning    the lowest value stands for missing samples in many files: --no-data %.9g\n",
+                facts.lowest);
   }
   if (facts.is_integer && facts.levels > 1 && facts.levels <= kFewLevels) {
-    report("warning", "%zu of %.0f levels are in use: slopes are terraces, about %.2g high", facts.levels,
-           std::ldexp(1, facts.bits), tall / static_cast<double>(facts.levels - 1));
+    std::printf("warning    %zu of %.0f levels are in use: slopes are terraces, about %.2g high\n",
+                facts.levels, std::ldexp(1, facts.bits), tall / static_cast<double>(facts.levels - 1));
   }
   if (map.boundary == Boundary::tile && !steps.wraps) {
-    report("warning", "the map is to tile, but its edges do not meet; --boundary open if it stands alone");
+    std::printf(
+        "warning    the map is to tile, but its edges do not meet; --boundary open if it stands alone\n");
   }
   if (tall > extent) {
-    report("warning", "the relief is %.3g times the extent; if the spacing is not right, give it with --texel",
-           tall / extent);
+    std::printf(
+        "warning    the relief is %.3g times the extent; if the spacing is not right, give it with --texel\n",
+        tall / extent);
   }
 }
 
@@ -103,7 +97,8 @@ void add_info_command(CLI::App& app) {
   add_map_options(*command, *map_options);
   add_run_options(*command, *run_options);
   command->footer(
-      "Lengths and heights are in the map's world unit. Edges wrap when steps across them are like those inside.\n"
+      "Lengths and heights are in the map's world unit. Edges wrap when steps across them are like those "
+      "inside.\n"
       "Examples:\n"
       "  heightlight info bricks.png\n"
       "  heightlight info bricks.png --width 2 --relief 0.05\n"

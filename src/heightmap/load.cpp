@@ -102,7 +102,7 @@ Spacing choose_spacing(const std::filesystem::path& path, const LoadOptions& opt
   const double columns = stored.values.width;
   Spacing cell{1 / columns, 1 / columns};
   if (stored.grid) {
-    cell = stored.grid->cell;
+    cell = {stored.grid->cell_x, stored.grid->cell_y};
     if (is_in_degrees(*stored.grid, stored.facts.highest - stored.facts.lowest)) {
       const Spacing metres = cell_in_metres(*stored.grid);
       char option[80];

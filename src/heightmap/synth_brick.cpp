@@ -15,11 +15,13 @@ namespace {
 constexpr int kCourses = 10;
 constexpr int kBricksPerCourse = 4;
 constexpr double kJoint = 0.014;
-constexpr double kWallSlope = 260;  // relief per width: a joint's wall stands at 88° where relief is a tenth
-constexpr double kReach = 1 / kWallSlope;  // a brick touches no ground further out than this
-constexpr double kSight = 0.02;        // more than kReach and what ragged edges can add to a brick
-constexpr double kArris = 0.009;       // breadth of the worn edge
-constexpr double kMortarEdge = 0.02;   // how far mortar can lie on a brick; more than kArris and ragged edges
+constexpr double kWallSlope = 260;         // relief per width: upright to 2° where the relief is a tenth
+constexpr double kReach = 1 / kWallSlope;  // a brick's wall ends no further out
+constexpr double kArris = 0.009;           // breadth of the worn edge
+constexpr double kRaggedness = 0.011;      // most that ragged edges move the outline
+constexpr double kMortarEdge = 0.02;       // mortar lies no further in on a brick
+constexpr double kSound = 2;               // a level that no noise reaches
+static_assert(kMortarEdge >= kArris + kRaggedness, "ragged edges start where they do not show yet");
 
 struct Brick {
   double u, v;  // centre
@@ -32,7 +34,7 @@ struct Brick {
   double roughness;
   double creases;
   double wear;   // height lost at the arris
-  double spall;  // noise level above which the face has broken off; large for none
+  double spall;  // noise level above which the face has broken off
   double crack;  // depth of its cracks
 };
 
@@ -44,8 +46,7 @@ Brick lay_brick(int course, int place, double course_shift, std::uint64_t seed) 
   brick.v = (course + 0.5) / kCourses + random.between(-0.002, 0.002);
   brick.half_width = 0.5 / kBricksPerCourse - kJoint / 2 + random.between(-0.006, 0.002);
   brick.half_height = 0.5 / kCourses - kJoint / 2 + random.between(-0.004, 0.002);
-  const double half_turn =
-      random.between(-0.008, 0.008);  // tangent of half the angle: no library sine needed
+  const double half_turn = random.between(-0.008, 0.008);  // tangent of half the angle: needs no sine
   brick.cosine = (1 - half_turn * half_turn) / (1 + half_turn * half_turn);
   brick.sine = 2 * half_turn / (1 + half_turn * half_turn);
   for (double& radius : brick.corner_radius) {
@@ -60,7 +61,7 @@ Brick lay_brick(int course, int place, double course_shift, std::uint64_t seed) 
   brick.roughness = random.between(0.6, 1.7);
   brick.creases = random.between(-0.6, 1);
   brick.wear = random.between(0.06, 0.2);
-  brick.spall = random.unit() < 0.3 ? random.between(0, 0.4) : 10;
+  brick.spall = random.unit() < 0.3 ? random.between(0, 0.4) : kSound;
   brick.crack = random.unit() < 0.4 ? random.between(0.1, 0.35) : 0;
   return brick;
 }
@@ -78,8 +79,8 @@ std::vector<Brick> lay_wall(std::uint64_t seed) {
 
 /// Where a point lies on a brick.
 struct Place {
-  double along, up;  // from the centre, on the face
-  double outside;    // signed distance to the outline, negative on the brick
+  double along, down;  // from the centre, on the face
+  double outside;      // signed distance to the outline, negative on the brick
 };
 
 // Signed distance to a box whose corners are rounded, each by its own radius.
@@ -87,9 +88,9 @@ Place place_on(const Brick& brick, double u, double v) {
   const double du = shorter_way(u - brick.u);
   const double dv = shorter_way(v - brick.v);
   Place place{brick.cosine * du + brick.sine * dv, brick.cosine * dv - brick.sine * du, 0};
-  const double radius = brick.corner_radius[(place.along > 0 ? 1 : 0) + (place.up > 0 ? 2 : 0)];
+  const double radius = brick.corner_radius[(place.along > 0 ? 1 : 0) + (place.down > 0 ? 2 : 0)];
   const double x = std::abs(place.along) - brick.half_width + radius;
-  const double y = std::abs(place.up) - brick.half_height + radius;
+  const double y = std::abs(place.down) - brick.half_height + radius;
   const double beyond_corner = x > 0 && y > 0 ? std::sqrt(x * x + y * y) : (x > y ? x : y);
   place.outside = beyond_corner - radius;
   return place;
@@ -144,7 +145,7 @@ Wall::Wall(int size, std::uint64_t seed)
       broken_(22, 90, 0.6, hash_combine(seed, 19)),
       crack_(5, 6, hash_combine(seed, 20)),
       jag_(47, 47, hash_combine(seed, 21)),
-      pits_(61, 0.2, 0.1, 0.33, hash_combine(seed, 22)),
+      pits_(61, 0.1, 0.1, 0.33, hash_combine(seed, 22)),
       blowholes_(19, 0.3, 0.1, 0.24, hash_combine(seed, 23)),
       filling_(5, 24, 0.7, hash_combine(seed, 24)),
       trowel_(26, 60, 0.5, hash_combine(seed, 25)),
@@ -155,8 +156,7 @@ double Wall::holes(double u, double v) const {
   double depth = 0;
   const double bent = 0.0035 * jag_(u, v);  // out of round
   const Spot pit = pits_(u + bent, v - bent);
-  if (pit.distance < 1 && pit.chance < 0.2)
-    depth = (0.06 + 0.7 * pit.chance) * (1 - pit.distance * pit.distance);
+  if (pit.distance < 1) depth = (0.06 + 0.14 * pit.chance) * (1 - pit.distance * pit.distance);
   const Spot blowhole = blowholes_(u + bent, v - bent);
   if (blowhole.distance < 1) {
     depth += (0.2 + 0.36 * blowhole.chance) * (1 - smoothstep(0.45, 1, blowhole.distance));
@@ -167,12 +167,14 @@ double Wall::holes(double u, double v) const {
 double Wall::face(const Brick& brick, const Place& place, double u, double v) const {
   const double own_u = u + brick.shift_u;
   const double own_v = v + brick.shift_v;
-  double h = brick.top + brick.tilt_u * place.along + brick.tilt_v * place.up;
+  double h = brick.top + brick.tilt_u * place.along + brick.tilt_v * place.down;
   h += 0.06 * brick.roughness * undulation_(own_u, own_v);
   h += 0.03 * brick.roughness * grain_(own_u, own_v);
   if (brick.creases > 0) h += 0.03 * brick.creases * creases_(own_u, own_v);
-  const double loose = spall_(own_u, own_v) - brick.spall;
-  if (loose > 0) h -= (0.12 + 0.08 * broken_(own_u, own_v)) * smoothstep(0, 0.06, loose) + 0.15 * loose;
+  if (brick.spall < kSound) {
+    const double loose = spall_(own_u, own_v) - brick.spall;
+    if (loose > 0) h -= (0.12 + 0.08 * broken_(own_u, own_v)) * smoothstep(0, 0.06, loose) + 0.15 * loose;
+  }
   if (brick.crack > 0) {
     const double aside = std::abs(crack_(own_u, own_v) + 0.09 * jag_(own_u, own_v));
     const double opened = brick.crack * smoothstep(-0.15, 0.25, creases_(own_v, own_u));
@@ -187,8 +189,8 @@ double Wall::face(const Brick& brick, const Place& place, double u, double v) co
   return place.outside > 0 ? h - kWallSlope * place.outside : h;
 }
 
-// Raked out in some places, nearly flush in others, hollowed between the bricks. On a brick it thins out, to nothing
-// at kMortarEdge.
+// Raked out in some places, nearly flush in others, hollowed between the bricks. On a brick it thins out, to
+// nothing at kMortarEdge.
 double Wall::mortar(double u, double v, double outside) const {
   const double level = 0.04 + 0.7 * smoothstep(-0.5, 0.75, filling_(u, v));
   const double hollow = outside > 0 ? (0.3 + level) * 12 * outside : -outside / kMortarEdge;
@@ -205,7 +207,7 @@ Wall::Neighbourhood Wall::bricks_near(double u, double v) const {
       const Brick& brick = bricks_[static_cast<std::size_t>(i)];
       const Place place = place_on(brick, u, v);
       near.outside = std::min(near.outside, place.outside);
-      if (place.outside < kSight && near.count < near.bricks.size()) {
+      if (place.outside < kReach + kRaggedness && near.count < near.bricks.size()) {
         near.bricks[near.count] = &brick;
         near.places[near.count++] = place;
       }

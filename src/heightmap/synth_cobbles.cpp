@@ -140,8 +140,7 @@ double Paving::face(const Stone& stone, double du, double dv, double inside) con
   double h = stone.top + stone.tilt_u * du + stone.tilt_v * dv;
   h += stone.roughness * (0.05 * lumps_(u, v) + 0.022 * grain_(u, v));
   const Spot pit = pits_(u, v);
-  if (pit.distance < 1 && pit.chance < 0.12)
-    h -= (0.03 + 0.8 * pit.chance) * (1 - pit.distance * pit.distance);
+  if (pit.distance < 1) h -= (0.03 + 0.1 * pit.chance) * (1 - pit.distance * pit.distance);
   if (inside >= stone.shoulder) return h;
   const double over = inside > 0 ? 1 - inside / stone.shoulder : 1;
   h -= stone.drop * (1 - std::sqrt(1 - over * over));
@@ -152,8 +151,7 @@ double Paving::face(const Stone& stone, double du, double dv, double inside) con
 double Paving::bedding(double u, double v) const {
   double h = 0.02 + 0.42 * smoothstep(-0.5, 0.6, filling_(u, v)) + 0.035 * sand_(u, v);
   const Spot pebble = gravel_(u, v);
-  if (pebble.distance < 1)
-    h += 0.05 * std::sqrt(1 - pebble.distance * pebble.distance);
+  if (pebble.distance < 1) h += 0.05 * std::sqrt(1 - pebble.distance * pebble.distance);
   return h;
 }
 

@@ -53,8 +53,8 @@ inline double smooth_max(double a, double b, double radius) {
 }
 
 /// Gradient noise (Perlin 2002, quintic fade) on a lattice of `frequency_x` × `frequency_y` cells per period,
-/// shifted by a fraction of a cell so that octaves do not share their zeros. Mean 0, standard deviation ≈
-/// 0.3, within ±1.5.
+/// shifted by a fraction of a cell so that octaves do not share their zeros. Mean 0, standard deviation 0.28,
+/// within ±1.6.
 class TiledNoise {
  public:
   TiledNoise(int frequency_x, int frequency_y, std::uint64_t seed);
@@ -86,7 +86,8 @@ struct Spot {
   double chance = 0;    ///< uniform in [0, 1), the spot's own
 };
 
-/// Round spots strewn over `frequency`² cells, each wholly inside one. A share of `coverage` of the cells has one.
+/// Round spots strewn over `frequency`² cells, each wholly inside one. A share of `coverage` of the cells has
+/// one.
 class Spots {
  public:
   /// Radii from `smallest` to `largest` (≤ ½) of a cell, small ones more often.

@@ -124,7 +124,7 @@ EsriGrid read_esri_grid(const std::filesystem::path& path, std::uint64_t memory_
   const std::uint64_t columns = get_count(path, found, kColumns);
   const std::uint64_t rows = get_count(path, found, kRows);
   check_map_size(path, columns, rows, sizeof(double) + sizeof(float), memory_limit);
-  // Each value takes a digit and a space at least; a header that promises more than that is not worth the memory.
+  // Each value takes a digit and a space at least: a header that promises more is not worth the memory.
   if (columns * rows > std::filesystem::file_size(path) / 2 + 1) {
     throw file_error(path, "has too few values: its header announces " + std::to_string(columns) + " x " +
                                std::to_string(rows));
@@ -134,9 +134,10 @@ EsriGrid read_esri_grid(const std::filesystem::path& path, std::uint64_t memory_
   EsriHeader& header = grid.header;
   header.columns = static_cast<int>(columns);
   header.rows = static_cast<int>(rows);
-  header.cell = {get_cell_size(path, found, kCellX), get_cell_size(path, found, kCellY)};
-  header.west = get_edge(found, kWestCorner, kWestCentre, header.cell.x);
-  header.south = get_edge(found, kSouthCorner, kSouthCentre, header.cell.y);
+  header.cell_x = get_cell_size(path, found, kCellX);
+  header.cell_y = get_cell_size(path, found, kCellY);
+  header.west = get_edge(found, kWestCorner, kWestCentre, header.cell_x);
+  header.south = get_edge(found, kSouthCorner, kSouthCentre, header.cell_y);
   header.no_data = found[kNoData];
   grid.values = Image<double>(header.columns, header.rows);
   read_values(words, first_value, grid.values);

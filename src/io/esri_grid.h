@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "heightlight/heightmap.h"
+#include "heightlight/image.h"
 
 namespace heightlight {
 
@@ -12,7 +12,8 @@ namespace heightlight {
 struct EsriHeader {
   int columns = 0;
   int rows = 0;
-  Spacing cell;                 ///< in the header's unit: metres, degrees, …
+  double cell_x = 0;  ///< in the header's unit: metres, degrees, …
+  double cell_y = 0;
   std::optional<double> west;   ///< of the outer edge of the leftmost cells, in that unit
   std::optional<double> south;  ///< of the outer edge of the lowest cells
   std::optional<double> no_data;

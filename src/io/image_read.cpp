@@ -45,6 +45,19 @@ const SampleType& find_sample_type(const std::filesystem::path& path, const OIIO
       path, std::string("its samples are of type ") + spec.format.c_str() + ", which is not supported");
 }
 
+/// OpenImageIO 2.4 leaves zeros or garbage, without a word, where a TIFF's samples are 64-bit in tiles or in
+/// a single row, or of more than 16 bits without filling their type.
+void check_tiff_layout(const std::filesystem::path& path, const OIIO::ImageSpec& spec, int bits) {
+  const int type_bits = static_cast<int>(spec.format.size()) * 8;
+  if (type_bits == 64 && (spec.tile_width > 0 || spec.height == 1)) {
+    throw file_error(
+        path, "64-bit TIFF samples in tiles or in a single row are not supported; use strips or 32 bits");
+  }
+  if (bits > 16 && bits != type_bits) {
+    throw file_error(path, std::to_string(bits) + "-bit TIFF samples are not supported; use 16 or 32 bits");
+  }
+}
+
 /// Messages of libraries may hold several lines and the path once more.
 std::string first_line(const std::string& text) {
   return text.empty() ? "damaged or truncated" : text.substr(0, text.find('\n'));
@@ -84,7 +97,10 @@ StoredImage read_image(const std::filesystem::path& path, FileFormat format, std
   image.bits = spec.get_int_attribute("oiio:BitsPerSample", static_cast<int>(spec.format.size()) * 8);
   image.is_integer = !spec.format.is_floating_point();
   image.channels = spec.channelnames;
-  if (format == FileFormat::tiff) image.no_data = read_tiff_no_data(path);
+  if (format == FileFormat::tiff) {
+    check_tiff_layout(path, spec, image.bits);
+    image.no_data = read_tiff_no_data(path);
+  }
   image.samples = type.make(spec.image_pixels() * channels);
   const bool read = std::visit(
       [&](auto& samples) { return input->read_image(0, 0, 0, spec.nchannels, kept, samples.data()); },

@@ -1,11 +1,11 @@
 #include "io/staged_output.h"
 
 #include <fcntl.h>
-#include <stdlib.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <system_error>
 
 #include "io/input_file.h"
@@ -60,12 +60,12 @@ fs::path topmost_missing(fs::path folder) {
   return missing;
 }
 
-/// Removes `folder` and its parents up to `top`, as long as they are empty.
+/// Removes `folder` and its parents up to `top`; a folder that is not empty stays, and so do those above it.
 void remove_empty_folders(fs::path folder, const fs::path& top) {
-  std::error_code failure;
+  std::error_code ignored;
   for (; !top.empty(); folder = folder.parent_path()) {
-    fs::remove(folder, failure);
-    if (failure || folder == top) return;
+    fs::remove(folder, ignored);
+    if (folder == top) return;
   }
 }
 

@@ -7,7 +7,8 @@
 namespace heightlight {
 namespace {
 
-/// ⟨a, b⟩ with every texel weighing its area: reciprocity, area_i F_ij = area_j F_ji, makes F symmetric under it.
+/// ⟨a, b⟩ with every texel weighing its area: reciprocity, area_i F_ij = area_j F_ji, makes F symmetric under
+/// it.
 double area_product(const TexelVector& a, const TexelVector& b, const Surface& surface) {
   double sum = 0;
   for (Eigen::Index i = 0; i < a.size(); ++i) {
@@ -20,22 +21,25 @@ double area_product(const TexelVector& a, const TexelVector& b, const Surface& s
 }  // namespace
 
 BounceSeries bounce(const FormFactors& form_factors, const Surface& surface, int bounces,
+                    const std::vector<double>& albedos,
                     const std::function<void(int, const TexelVector&)>& visit, bool quiet) {
   Progress progress("bounces", bounces + 1, quiet);
   BounceSeries series;
   series.bounces = bounces;
-  series.last = direct_irradiance(form_factors);
-  series.sum = series.last;
-  visit(0, series.last);
+  TexelVector last = form_factors.direct;
+  series.sum = last;
+  series.weighted.assign(albedos.size(), last);
+  visit(0, last);
   for (int b = 1; b <= bounces; ++b) {
-    series.last = gather(form_factors, series.last);
-    series.sum += series.last;
-    visit(b, series.last);
+    last = gather(form_factors, last);
+    series.sum += last;
+    for (std::size_t i = 0; i < albedos.size(); ++i) series.weighted[i] += std::pow(albedos[i], b) * last;
+    visit(b, last);
     progress.add(1);
   }
-  series.next = gather(form_factors, series.last);
-  const double length = area_product(series.last, series.last, surface);
-  series.spectral_radius = length > 0 ? area_product(series.last, series.next, surface) / length : 0;
+  series.next = gather(form_factors, last);
+  const double length = area_product(last, last, surface);
+  series.spectral_radius = length > 0 ? area_product(last, series.next, surface) / length : 0;
   return series;
 }
 

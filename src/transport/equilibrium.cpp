@@ -1,11 +1,12 @@
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseCore>
+#include <cmath>
 
 #include "heightlight/transport.h"
 
 // x = source + F ρ x is solved as (I − F ρ) x = source. Plain iteration is the bounces themselves and takes
-// ln ε / ln λ of them, thousands in a deep well; BiCGSTAB takes a few dozen. Eigen runs it on anything that it can
-// multiply with a vector, given the traits below.
+// ln ε / ln λ of them, thousands in a deep well; BiCGSTAB takes a few dozen. Eigen runs it on anything that
+// it can multiply with a vector, given the traits below.
 
 namespace heightlight {
 class LossOperator;
@@ -33,7 +34,8 @@ class LossOperator : public Eigen::EigenBase<LossOperator> {
   Eigen::Index cols() const { return albedo_.size(); }
 
   template <class Right>
-  Eigen::Product<LossOperator, Right, Eigen::AliasFreeProduct> operator*(const Eigen::MatrixBase<Right>& right) const {
+  Eigen::Product<LossOperator, Right, Eigen::AliasFreeProduct> operator*(
+      const Eigen::MatrixBase<Right>& right) const {
     return {*this, right.derived()};
   }
 
@@ -52,17 +54,23 @@ struct generic_product_impl<heightlight::LossOperator, Right, SparseShape, Dense
     : generic_product_impl_base<heightlight::LossOperator, Right,
                                 generic_product_impl<heightlight::LossOperator, Right>> {
   template <class Destination>
-  static void scaleAndAddTo(Destination& destination, const heightlight::LossOperator& left, const Right& right,
-                            const double& scale) {
+  static void scaleAndAddTo(Destination& destination, const heightlight::LossOperator& left,
+                            const Right& right, const double& scale) {
     destination += scale * left.times(right);
   }
 };
 }  // namespace Eigen::internal
 
 namespace heightlight {
+namespace {
 
-Equilibrium solve_equilibrium(const FormFactors& form_factors, const TexelVector& source, const TexelVector& albedo,
-                              const TexelVector& guess) {
+constexpr double kTolerance = 1e-8;  // of the source's norm
+constexpr int kMostIterations = 2000;
+
+}  // namespace
+
+Equilibrium solve_equilibrium(const FormFactors& form_factors, const TexelVector& source,
+                              const TexelVector& albedo, const TexelVector& guess) {
   Equilibrium result;
   const double size = source.norm();
   if (size == 0) {
@@ -71,8 +79,8 @@ Equilibrium solve_equilibrium(const FormFactors& form_factors, const TexelVector
   }
   const LossOperator loss(form_factors, albedo);
   Eigen::BiCGSTAB<LossOperator, Eigen::IdentityPreconditioner> solver;
-  solver.setTolerance(1e-9);
-  solver.setMaxIterations(2000);
+  solver.setTolerance(kTolerance);
+  solver.setMaxIterations(kMostIterations);
   solver.compute(loss);
   result.irradiance = solver.solveWithGuess(source, guess);
   result.iterations = static_cast<int>(solver.iterations());
@@ -80,9 +88,11 @@ Equilibrium solve_equilibrium(const FormFactors& form_factors, const TexelVector
   return result;
 }
 
-Equilibrium solve_tail(const FormFactors& form_factors, const BounceSeries& series) {
-  const TexelVector white = TexelVector::Ones(series.next.size());
-  return solve_equilibrium(form_factors, series.next, white, series.next);
+Equilibrium solve_tail(const FormFactors& form_factors, const BounceSeries& series, double albedo) {
+  const TexelVector constant = TexelVector::Constant(series.next.size(), albedo);
+  Equilibrium tail = solve_equilibrium(form_factors, series.next, constant, series.next);
+  tail.irradiance *= std::pow(albedo, series.bounces + 1);
+  return tail;
 }
 
 }  // namespace heightlight

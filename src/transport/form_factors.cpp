@@ -8,27 +8,13 @@
 #include "core/parallel.h"
 #include "heightlight/error.h"
 #include "heightlight/transport.h"
+#include "transport/link_packing.h"
 #include "visibility/ray_caster.h"
 
 namespace heightlight {
 namespace {
 
 constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
-
-std::uint8_t to_byte(float unit) { return static_cast<std::uint8_t>(std::lround(unit * 255.0F)); }
-
-/// A place in a triangle stays in it when rounded, so that only vertices which exist are ever read.
-Link pack(std::uint16_t ray, const SurfacePoint& place) {
-  Link link{place.cell, ray, to_byte(place.across), to_byte(place.down)};
-  if (place.across < place.down && link.across >= link.down) {
-    if (link.down < 255) {
-      link.down = static_cast<std::uint8_t>(link.across + 1);
-    } else {
-      link.across = 254;
-    }
-  }
-  return link;
-}
 
 /// Mean number of hits per receiver, from receivers picked by a hash.
 double estimate_hits(const Surface& surface, const RayCaster& caster) {
@@ -51,12 +37,13 @@ double estimate_hits(const Surface& surface, const RayCaster& caster) {
 void check_memory(std::uint64_t bytes, std::uint64_t limit, const Surface& surface, int rays) {
   if (bytes <= limit) return;
   throw Error("the links of " + std::to_string(surface.width()) + " × " + std::to_string(surface.height()) +
-              " texels at " + std::to_string(rays) + " rays need " + format_byte_size(bytes) + ", more than the " +
-              format_byte_size(limit) + " allowed: use fewer --rays, a smaller map, or more --memory");
+              " texels at " + std::to_string(rays) + " rays need " + format_byte_size(bytes) +
+              ", more than the " + format_byte_size(limit) +
+              " allowed: use fewer --rays, a smaller map, or more --memory");
 }
 
 /// Casts one row's rays into its links and its part of the sky maps.
-void fill_row(const RayCaster& caster, int row, FormFactors& form_factors) {
+void fill_row(const Surface& surface, const RayCaster& caster, int row, FormFactors& form_factors) {
   LinkRow& out = form_factors.rows[static_cast<std::size_t>(row)];
   const int width = form_factors.width;
   out.begin.reserve(static_cast<std::size_t>(width) + 1);
@@ -67,20 +54,15 @@ void fill_row(const RayCaster& caster, int row, FormFactors& form_factors) {
   ReceiverView view;
   for (int column = 0; column < width; ++column) {
     caster.view(row, column, workspace, view);
-    double seen = 0;  // Σ F over the hits; the sky has the other rays' share
-    double all = 0;
-    std::size_t hit = 0;
-    for (int ray = 0; ray < view.rays; ++ray) {
-      const double weight = view.weight[ray];
-      all += weight;
-      if (hit == view.ray.size() || view.ray[hit] != ray) continue;
-      seen += weight;
-      links.push_back(pack(view.ray[hit], view.place[hit]));
-      ++hit;
+    for (std::size_t hit = 0; hit < view.ray.size(); ++hit) {
+      links.push_back(pack_link(view.ray[hit], view.place[hit], surface.map.height));
     }
-    const double sky_rays = view.rays - static_cast<double>(view.ray.size());
-    form_factors.ambient_occlusion(row, column) = view.rays > 0 ? static_cast<float>(sky_rays / view.rays) : kMissing;
-    form_factors.sky_view_factor(row, column) = view.rays > 0 ? static_cast<float>(all - seen) : kMissing;
+    const bool present = view.rays > 0;
+    const SkyShare sky = present ? sky_share(view) : SkyShare{};
+    form_factors.ambient_occlusion(row, column) =
+        present ? static_cast<float>(sky.ambient_occlusion) : kMissing;
+    form_factors.sky_view_factor(row, column) = present ? static_cast<float>(sky.sky_view_factor) : kMissing;
+    form_factors.direct[Eigen::Index{row} * width + column] = present ? sky.sky_view_factor : 0;
     out.weight_table[static_cast<std::size_t>(column)] = view.weight_table;
     out.begin.push_back(links.size());
   }
@@ -98,7 +80,8 @@ std::uint64_t FormFactors::link_count() const {
 std::uint64_t FormFactors::bytes() const {
   std::uint64_t bytes = 0;
   for (const LinkRow& row : rows) {
-    bytes += row.links.size() * sizeof(Link) + row.begin.size() * sizeof(std::uint64_t) + row.weight_table.size();
+    bytes +=
+        row.links.size() * sizeof(Link) + row.begin.size() * sizeof(std::uint64_t) + row.weight_table.size();
   }
   return bytes;
 }
@@ -106,15 +89,18 @@ std::uint64_t FormFactors::bytes() const {
 FormFactors build_form_factors(const Surface& surface, const FormFactorOptions& options) {
   const RayCaster caster(surface, options.rays);
   constexpr double kMargin = 1.1;
-  const double receiver_bytes = kMargin * estimate_hits(surface, caster) * sizeof(Link) + sizeof(std::uint64_t) + 1;
+  const double receiver_bytes =
+      kMargin * estimate_hits(surface, caster) * sizeof(Link) + sizeof(std::uint64_t) + 1;
   const double texels = static_cast<double>(surface.map.height.size());
-  check_memory(static_cast<std::uint64_t>(receiver_bytes * texels), options.memory_limit, surface, caster.rays());
+  check_memory(static_cast<std::uint64_t>(receiver_bytes * texels), options.memory_limit, surface,
+               caster.rays());
 
   FormFactors form_factors;
   form_factors.width = surface.width();
   form_factors.height = surface.height();
   form_factors.ambient_occlusion = Map(surface.width(), surface.height());
   form_factors.sky_view_factor = Map(surface.width(), surface.height());
+  form_factors.direct = TexelVector::Zero(static_cast<Eigen::Index>(surface.map.height.size()));
   form_factors.ray_weights.assign(caster.directions().weight.begin(), caster.directions().weight.end());
   form_factors.rows.resize(static_cast<std::size_t>(surface.height()));
   std::atomic<std::uint64_t> taken{0};
@@ -122,8 +108,9 @@ FormFactors build_form_factors(const Surface& surface, const FormFactorOptions& 
   parallel_for(
       surface.height(),
       [&](std::int64_t row) {
-        fill_row(caster, static_cast<int>(row), form_factors);
-        const std::uint64_t row_bytes = form_factors.rows[static_cast<std::size_t>(row)].links.size() * sizeof(Link);
+        fill_row(surface, caster, static_cast<int>(row), form_factors);
+        const std::uint64_t row_bytes =
+            form_factors.rows[static_cast<std::size_t>(row)].links.size() * sizeof(Link);
         check_memory(taken.fetch_add(row_bytes) + row_bytes, options.memory_limit, surface, caster.rays());
       },
       &progress);

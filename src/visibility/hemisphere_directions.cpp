@@ -39,7 +39,7 @@ HemisphereDirections make_hemisphere_directions(int count, std::uint64_t seed) {
       const double cosine = 1 - (k + offset) / count;
       directions.cosine[t][static_cast<std::size_t>(k)] = static_cast<float>(cosine);
       directions.sine[t][static_cast<std::size_t>(k)] = static_cast<float>(std::sqrt(1 - cosine * cosine));
-      directions.weight[t][static_cast<std::size_t>(k)] = static_cast<float>(cosine / cosine_sum);
+      directions.weight[t][static_cast<std::size_t>(k)] = cosine / cosine_sum;
     }
   }
   return directions;

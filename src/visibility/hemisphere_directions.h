@@ -28,9 +28,9 @@ struct HemisphereDirections {
   std::uint64_t seed = 0;
   std::vector<float> azimuth_cosine;  ///< cos(2π frac(k g)), `count` of them
   std::vector<float> azimuth_sine;
-  std::array<std::vector<float>, kTables> cosine;  ///< cosθ_k, falling with k
-  std::array<std::vector<float>, kTables> sine;    ///< sinθ_k
-  std::array<std::vector<float>, kTables> weight;  ///< form factor of ray k: cosθ_k / Σ cosθ
+  std::array<std::vector<float>, kTables> cosine;   ///< cosθ_k, falling with k
+  std::array<std::vector<float>, kTables> sine;     ///< sinθ_k
+  std::array<std::vector<double>, kTables> weight;  ///< form factor of ray k: cosθ_k / Σ cosθ
 
   /// The turn of a texel. It repeats every kTile texels, so that results commute with shifts by whole
   /// periods.

@@ -52,7 +52,8 @@ RayCaster::RayCaster(const Surface& surface, const RayOptions& options)
 
 std::uint64_t ray_caster_bytes(const Surface& surface, const RayOptions& options) {
   return maximum_pyramid_bytes(std::max(1, surface.cell_columns()), std::max(1, surface.cell_rows())) +
-         static_cast<std::uint64_t>(options.rays) * HemisphereDirections::kTables * 3 * sizeof(float);
+         static_cast<std::uint64_t>(options.rays) * HemisphereDirections::kTables *
+             (2 * sizeof(float) + sizeof(double));
 }
 
 RayBundle RayCaster::aim(int row, int column, const LatticeTurn& turn, RayWorkspace& workspace) const {
@@ -111,6 +112,13 @@ void RayCaster::view(int row, int column, RayWorkspace& workspace, ReceiverView&
     view.place.push_back(
         {static_cast<std::uint32_t>(workspace.cell[i]), workspace.across[i], workspace.down[i]});
   }
+}
+
+SkyShare sky_share(const ReceiverView& view) {
+  double seen = 0;
+  for (const std::uint16_t ray : view.ray) seen += view.weight[ray];
+  const double hits = static_cast<double>(view.ray.size());
+  return {1 - hits / view.rays, std::max(0.0, 1 - seen)};
 }
 
 }  // namespace heightlight

@@ -20,6 +20,11 @@
 // climbs one level. The position is kept as an integer cell, so that every step makes progress, whatever the
 // rounding.
 //
+// The receiver stands for the surface around its vertex. A direction of its hemisphere that lies below a
+// facet at the vertex is blocked at once, and what it sees is that facet: its middle stands for it. (The
+// vertex itself would do as well where the surface is smooth, but a receiver all of whose rays end so would
+// be cut off from all light.)
+//
 // Missing samples make d NaN, which is never > 0: holes occlude nothing. A ray that comes out of a hole below
 // the surface is blocked by the hole's edge.
 
@@ -58,6 +63,10 @@ struct RayEnds {
 
 constexpr std::int32_t kSky = -1;
 constexpr int kRayPadding = 16;
+
+/// Coordinates of a triangle's middle in its cell.
+constexpr float kOneThird = 1.0F / 3;
+constexpr float kTwoThirds = 2.0F / 3;
 
 /// Tiles a ray may cross before it counts as having reached the sky: only rays within relief / (4096 × width)
 /// of the horizontal ever do.

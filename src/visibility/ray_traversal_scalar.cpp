@@ -12,19 +12,20 @@ float away_from_zero(float step) {
   return std::fabs(step) < kLeastStep ? std::copysign(kLeastStep, step) : step;
 }
 
-/// The four heights of a cell and the surface over it.
+/// The four heights of a cell above the receiver, and the surface over it. Differences come first, so that a
+/// large offset of the heights costs no digits.
 struct Cell {
   float upper_left, upper_right, lower_left, lower_right;
 
-  Cell(const RayGrid& grid, int row, int column) {
+  Cell(const RayGrid& grid, float z0, int row, int column) {
     const int right = column + 1 == grid.width ? 0 : column + 1;
     const int below = grid.tiles && row + 1 == grid.cell_rows ? 0 : row + 1;
     const float* upper = grid.height + static_cast<std::ptrdiff_t>(row) * grid.width;
     const float* lower = grid.height + static_cast<std::ptrdiff_t>(below) * grid.width;
-    upper_left = upper[column];
-    upper_right = upper[right];
-    lower_left = lower[column];
-    lower_right = lower[right];
+    upper_left = upper[column] - z0;
+    upper_right = upper[right] - z0;
+    lower_left = lower[column] - z0;
+    lower_right = lower[right] - z0;
   }
 
   float height_at(float across, float down) const {
@@ -39,7 +40,7 @@ struct Cell {
 struct Walker {
   const RayGrid& grid;
   float z0, step_u, step_v, slope, per_u, per_v, per_diagonal;
-  float u0, v0;  // moved by whole tiles when the ray wraps, so that positions stay small
+  int origin_column, origin_row;  // the receiver, moved by whole tiles when the ray wraps
   int column, row, level = 0, wraps = 0;
   float s = 0;
 
@@ -52,8 +53,8 @@ struct Walker {
         per_u(1.0F / step_u),
         per_v(1.0F / step_v),
         per_diagonal(1.0F / (step_u - step_v)),
-        u0(static_cast<float>(bundle.column)),
-        v0(static_cast<float>(bundle.row)),
+        origin_column(bundle.column),
+        origin_row(bundle.row),
         column(step_u > 0 ? bundle.column : bundle.column - 1),
         row(step_v > 0 ? bundle.row : bundle.row - 1) {}
 
@@ -68,28 +69,35 @@ struct Walker {
     const int tiles_v = row < 0 ? 1 : row >= rows ? -1 : 0;
     column += tiles_u * columns;
     row += tiles_v * rows;
-    u0 += static_cast<float>(tiles_u * columns);
-    v0 += static_cast<float>(tiles_v * rows);
+    origin_column += tiles_u * columns;
+    origin_row += tiles_v * rows;
     return true;
   }
 
-  float z_at(float way) const { return z0 + way * slope; }
+  /// Height of the ray above the receiver.
+  float rise_at(float way) const { return way * slope; }
 
-  /// Is the ray below the surface at the cell's diagonal or where it leaves? Then sets the place.
+  /// Is the ray below the surface where it enters the cell (out of a hole), at its diagonal, or where it
+  /// leaves? Then sets the place.
   bool blocked_in_cell(float s_exit, float& across, float& down) const {
-    const Cell cell(grid, row, column);
-    const float left = static_cast<float>(column);
-    const float top = static_cast<float>(row);
-    const auto u_at = [&](float way) { return clamp_unit(u0 + way * step_u - left); };
-    const auto v_at = [&](float way) { return clamp_unit(v0 + way * step_v - top); };
+    const Cell cell(grid, z0, row, column);
+    const float left = static_cast<float>(column - origin_column);
+    const float top = static_cast<float>(row - origin_row);
+    const auto u_at = [&](float way) { return clamp_unit(way * step_u - left); };
+    const auto v_at = [&](float way) { return clamp_unit(way * step_v - top); };
 
     float s_before = s;
-    float d_before = cell.height_at(u_at(s), v_at(s)) - z_at(s);
-    const float s_diagonal = ((left - top) - (u0 - v0)) * per_diagonal;
+    float d_before = cell.height_at(u_at(s), v_at(s)) - rise_at(s);
+    if (s > 0 && d_before > 0) {
+      across = u_at(s);
+      down = v_at(s);
+      return true;
+    }
+    const float s_diagonal = (left - top) * per_diagonal;
     float s_after = s_exit;
-    float d_after = cell.height_at(u_at(s_exit), v_at(s_exit)) - z_at(s_exit);
+    float d_after = cell.height_at(u_at(s_exit), v_at(s_exit)) - rise_at(s_exit);
     if (s_diagonal > s && s_diagonal < s_exit) {
-      const float d_diagonal = cell.height_on_diagonal(u_at(s_diagonal)) - z_at(s_diagonal);
+      const float d_diagonal = cell.height_on_diagonal(u_at(s_diagonal)) - rise_at(s_diagonal);
       if (d_diagonal > 0) {
         s_after = s_diagonal;
         d_after = d_diagonal;
@@ -99,9 +107,14 @@ struct Walker {
       }
     }
     if (!(d_after > 0)) return false;
-    // Linear between d_before ≤ 0 and d_after > 0; at the later breakpoint where the earlier one is a hole,
-    // at the earlier one where rounding or the receiver's own facet has it above already.
-    const float share = d_before < 0 ? d_before / (d_before - d_after) : d_before >= 0 ? 0.0F : 1.0F;
+    if (s_before == 0) {  // the receiver's own facet
+      const bool upper_right = u_at(0.5F * s_after) >= v_at(0.5F * s_after);
+      across = upper_right ? kTwoThirds : kOneThird;
+      down = upper_right ? kOneThird : kTwoThirds;
+      return true;
+    }
+    // Linear between d_before ≤ 0 and d_after > 0; at the later breakpoint where the earlier one is a hole.
+    const float share = d_before <= 0 ? d_before / (d_before - d_after) : 1.0F;
     const float s_hit = s_before + share * (s_after - s_before);
     across = u_at(s_hit);
     down = v_at(s_hit);
@@ -119,14 +132,14 @@ struct Walker {
       const int bottom = std::min(top + (1 << level), grid.cell_rows);
       const int border_u = step_u > 0 ? right : left;
       const int border_v = step_v > 0 ? bottom : top;
-      const float s_u = (static_cast<float>(border_u) - u0) * per_u;
-      const float s_v = (static_cast<float>(border_v) - v0) * per_v;
+      const float s_u = static_cast<float>(border_u - origin_column) * per_u;
+      const float s_v = static_cast<float>(border_v - origin_row) * per_v;
       const float s_exit = std::max(s, std::min(s_u, s_v));
-      const float z_lowest = z_at(slope < 0 ? s_exit : s);
+      const float lowest = rise_at(slope < 0 ? s_exit : s);
 
-      if (z_lowest >= grid.highest && slope >= 0) return kSky;
+      if (lowest >= grid.highest - z0 && slope >= 0) return kSky;
       const std::int32_t block = grid.pyramid->index(level, row, column);
-      if (z_lowest < grid.pyramid->highest[static_cast<std::size_t>(block)]) {
+      if (lowest < grid.pyramid->highest[static_cast<std::size_t>(block)] - z0) {
         if (level > 0) {
           --level;
           continue;
@@ -137,10 +150,10 @@ struct Walker {
       const bool crosses_u = s_u <= s_v;
       if (crosses_u) {
         column = step_u > 0 ? right : left - 1;
-        row = std::clamp(static_cast<int>(std::floor(v0 + s_exit * step_v)), top, bottom - 1);
+        row = std::clamp(origin_row + static_cast<int>(std::floor(s_exit * step_v)), top, bottom - 1);
       } else {
         row = step_v > 0 ? bottom : top - 1;
-        column = std::clamp(static_cast<int>(std::floor(u0 + s_exit * step_u)), left, right - 1);
+        column = std::clamp(origin_column + static_cast<int>(std::floor(s_exit * step_u)), left, right - 1);
       }
       const int border = crosses_u ? border_u : border_v;
       const int parent_mask = (2 << level) - 1;

@@ -60,8 +60,8 @@ struct Lanes {
   const RayGrid& grid;
   const RayBundle& bundle;
   const RayEnds& ends;
-  VF step_u, step_v, slope, per_u, per_v, per_diagonal, u0, v0, s;
-  VI column, row, level, wraps;
+  VF step_u, step_v, slope, per_u, per_v, per_diagonal, s;
+  VI column, row, origin_column, origin_row, level, wraps;
   MI active;
   int next = 0;
   HWY_ALIGN std::int32_t ray_of_lane[kMostLanes];
@@ -70,11 +70,11 @@ struct Lanes {
       : grid(g),
         bundle(b),
         ends(e),
-        u0(hn::Zero(kF)),
-        v0(hn::Zero(kF)),
         s(hn::Zero(kF)),
         column(hn::Zero(kI)),
         row(hn::Zero(kI)),
+        origin_column(hn::Zero(kI)),
+        origin_row(hn::Zero(kI)),
         level(hn::Zero(kI)),
         wraps(hn::Zero(kI)) {
     std::fill(std::begin(ray_of_lane), std::end(ray_of_lane), -1);
@@ -102,10 +102,9 @@ struct Lanes {
     per_u = hn::Div(one, step_u);
     per_v = hn::Div(one, step_v);
     per_diagonal = hn::Div(one, hn::Sub(step_u, step_v));
-    const MF fresh_f = to_float(fresh);
-    u0 = hn::IfThenElse(fresh_f, hn::Set(kF, static_cast<float>(bundle.column)), u0);
-    v0 = hn::IfThenElse(fresh_f, hn::Set(kF, static_cast<float>(bundle.row)), v0);
-    s = hn::IfThenZeroElse(fresh_f, s);
+    origin_column = hn::IfThenElse(fresh, set_int(bundle.column), origin_column);
+    origin_row = hn::IfThenElse(fresh, set_int(bundle.row), origin_row);
+    s = hn::IfThenZeroElse(to_float(fresh), s);
     level = hn::IfThenZeroElse(fresh, level);
     wraps = hn::IfThenZeroElse(fresh, wraps);
     // Going down the axis, the first cell is the one before the vertex.
@@ -134,12 +133,12 @@ struct Lanes {
     const MI ended = grid.tiles ? hn::And(outside, hn::Gt(wraps, set_int(kMostWraps))) : outside;
     column = hn::Add(column, hn::IfThenElseZero(outside, shift_u));
     row = hn::Add(row, hn::IfThenElseZero(outside, shift_v));
-    u0 = hn::Add(u0, hn::ConvertTo(kF, hn::IfThenElseZero(outside, shift_u)));
-    v0 = hn::Add(v0, hn::ConvertTo(kF, hn::IfThenElseZero(outside, shift_v)));
+    origin_column = hn::Add(origin_column, hn::IfThenElseZero(outside, shift_u));
+    origin_row = hn::Add(origin_row, hn::IfThenElseZero(outside, shift_v));
     return ended;
   }
 
-  VF z_at(VF way) const { return hn::Add(hn::Set(kF, bundle.height), hn::Mul(way, slope)); }
+  VF rise_at(VF way) const { return hn::Mul(way, slope); }
 
   Cells gather_cells() const {
     const VI one = set_int(1);
@@ -152,43 +151,50 @@ struct Lanes {
     const VI width = set_int(grid.width);
     const VI upper = hn::Mul(row, width);
     const VI lower = hn::Mul(below, width);
-    return {hn::GatherIndex(kF, grid.height, hn::Add(upper, column)),
-            hn::GatherIndex(kF, grid.height, hn::Add(upper, right)),
-            hn::GatherIndex(kF, grid.height, hn::Add(lower, column)),
-            hn::GatherIndex(kF, grid.height, hn::Add(lower, right))};
+    const auto above_receiver = [&](VI vertex) {
+      return hn::Sub(hn::GatherIndex(kF, grid.height, vertex), hn::Set(kF, bundle.height));
+    };
+    return {above_receiver(hn::Add(upper, column)), above_receiver(hn::Add(upper, right)),
+            above_receiver(hn::Add(lower, column)), above_receiver(hn::Add(lower, right))};
   }
 
   MF blocked_in_cell(VF s_exit, VF& across, VF& down) const {
     const Cells cells = gather_cells();
     const VF zero = hn::Zero(kF);
-    const VF left = hn::ConvertTo(kF, column);
-    const VF top = hn::ConvertTo(kF, row);
-    const auto u_at = [&](VF way) { return clamp_unit(hn::Sub(hn::Add(u0, hn::Mul(way, step_u)), left)); };
-    const auto v_at = [&](VF way) { return clamp_unit(hn::Sub(hn::Add(v0, hn::Mul(way, step_v)), top)); };
+    const VF left = hn::ConvertTo(kF, hn::Sub(column, origin_column));
+    const VF top = hn::ConvertTo(kF, hn::Sub(row, origin_row));
+    const auto u_at = [&](VF way) { return clamp_unit(hn::Sub(hn::Mul(way, step_u), left)); };
+    const auto v_at = [&](VF way) { return clamp_unit(hn::Sub(hn::Mul(way, step_v), top)); };
 
-    const VF d_exit = hn::Sub(cells.height_at(u_at(s_exit), v_at(s_exit)), z_at(s_exit));
-    const VF s_diagonal = hn::Mul(hn::Sub(hn::Sub(left, top), hn::Sub(u0, v0)), per_diagonal);
+    const VF d_exit = hn::Sub(cells.height_at(u_at(s_exit), v_at(s_exit)), rise_at(s_exit));
+    const VF s_diagonal = hn::Mul(hn::Sub(left, top), per_diagonal);
     const MF has_diagonal = hn::And(hn::Gt(s_diagonal, s), hn::Lt(s_diagonal, s_exit));
     const VF along = u_at(s_diagonal);
     const VF on_diagonal =
         hn::Add(cells.upper_left, hn::Mul(along, hn::Sub(cells.lower_right, cells.upper_left)));
-    const VF d_diagonal = hn::Sub(on_diagonal, z_at(s_diagonal));
+    const VF d_diagonal = hn::Sub(on_diagonal, rise_at(s_diagonal));
     const MF blocked_at_diagonal = hn::And(has_diagonal, hn::Gt(d_diagonal, zero));
-    const MF blocked = hn::Or(blocked_at_diagonal, hn::Gt(d_exit, zero));
+    const VF d_enter = hn::Sub(cells.height_at(u_at(s), v_at(s)), rise_at(s));
+    const MF enters_below = hn::And(hn::Gt(s, zero), hn::Gt(d_enter, zero));
+    const MF blocked = hn::Or(enters_below, hn::Or(blocked_at_diagonal, hn::Gt(d_exit, zero)));
     if (hn::AllFalse(kF, blocked)) return blocked;
 
     const MF from_diagonal = hn::AndNot(blocked_at_diagonal, has_diagonal);
-    const VF d_enter = hn::Sub(cells.height_at(u_at(s), v_at(s)), z_at(s));
     const VF s_before = hn::IfThenElse(from_diagonal, s_diagonal, s);
     const VF d_before = hn::IfThenElse(from_diagonal, d_diagonal, d_enter);
     const VF s_after = hn::IfThenElse(blocked_at_diagonal, s_diagonal, s_exit);
     const VF d_after = hn::IfThenElse(blocked_at_diagonal, d_diagonal, d_exit);
     const VF crossing = hn::Div(d_before, hn::Sub(d_before, d_after));
-    const VF share = hn::IfThenElse(hn::Lt(d_before, zero), crossing,
-                                    hn::IfThenElse(hn::Ge(d_before, zero), zero, hn::Set(kF, 1.0F)));
-    const VF s_hit = hn::Add(s_before, hn::Mul(share, hn::Sub(s_after, s_before)));
-    across = u_at(s_hit);
-    down = v_at(s_hit);
+    const VF share = hn::IfThenElse(hn::Le(d_before, zero), crossing, hn::Set(kF, 1.0F));
+    const VF s_crossing = hn::Add(s_before, hn::Mul(share, hn::Sub(s_after, s_before)));
+    const VF s_hit = hn::IfThenElse(enters_below, s, s_crossing);
+    const MF own_facet = hn::AndNot(enters_below, hn::Eq(s_before, zero));
+    const VF middle = hn::Mul(hn::Set(kF, 0.5F), s_after);
+    const MF upper_right = hn::Ge(u_at(middle), v_at(middle));
+    const VF one_third = hn::Set(kF, kOneThird);
+    const VF two_thirds = hn::Set(kF, kTwoThirds);
+    across = hn::IfThenElse(own_facet, hn::IfThenElse(upper_right, two_thirds, one_third), u_at(s_hit));
+    down = hn::IfThenElse(own_facet, hn::IfThenElse(upper_right, one_third, two_thirds), v_at(s_hit));
     return blocked;
   }
 
@@ -230,12 +236,13 @@ struct Lanes {
       const MI up_v = to_int(hn::Gt(step_v, zero_f));
       const VI border_u = hn::IfThenElse(up_u, right, left);
       const VI border_v = hn::IfThenElse(up_v, bottom, top);
-      const VF s_u = hn::Mul(hn::Sub(hn::ConvertTo(kF, border_u), u0), per_u);
-      const VF s_v = hn::Mul(hn::Sub(hn::ConvertTo(kF, border_v), v0), per_v);
+      const VF s_u = hn::Mul(hn::ConvertTo(kF, hn::Sub(border_u, origin_column)), per_u);
+      const VF s_v = hn::Mul(hn::ConvertTo(kF, hn::Sub(border_v, origin_row)), per_v);
       const VF s_exit = hn::Max(s, hn::Min(s_u, s_v));
-      const VF z_lowest = z_at(hn::IfThenElse(hn::Lt(slope, zero_f), s_exit, s));
+      const VF lowest = rise_at(hn::IfThenElse(hn::Lt(slope, zero_f), s_exit, s));
 
-      const MF above_all = hn::And(hn::Ge(z_lowest, hn::Set(kF, grid.highest)), hn::Ge(slope, zero_f));
+      const MF above_all =
+          hn::And(hn::Ge(lowest, hn::Set(kF, grid.highest - bundle.height)), hn::Ge(slope, zero_f));
       sky = hn::Or(sky, hn::And(active, to_int(above_all)));
       const MI going = hn::AndNot(sky, active);
       const VI block =
@@ -243,7 +250,8 @@ struct Lanes {
                   hn::Add(hn::Shl(hn::Shr(row, level), hn::Sub(set_int(pyramid.stride_bits), level)),
                           hn::Shr(column, level)));
       const VF block_highest = hn::GatherIndex(kF, pyramid.highest.data(), hn::IfThenElseZero(going, block));
-      const MI near = hn::And(going, to_int(hn::Lt(z_lowest, block_highest)));
+      const MI near =
+          hn::And(going, to_int(hn::Lt(lowest, hn::Sub(block_highest, hn::Set(kF, bundle.height)))));
       const MI descends = hn::And(near, hn::Gt(level, zero));
       const MI at_cell = hn::AndNot(descends, near);
 
@@ -259,8 +267,8 @@ struct Lanes {
 
       const MI advances = hn::AndNot(hn::Or(descends, stays), going);
       const MI crosses_u = to_int(hn::Le(s_u, s_v));
-      const VI along_u = clamp_int(hn::Add(u0, hn::Mul(s_exit, step_u)), left, right);
-      const VI along_v = clamp_int(hn::Add(v0, hn::Mul(s_exit, step_v)), top, bottom);
+      const VI along_u = clamp_cell(origin_column, hn::Mul(s_exit, step_u), left, right);
+      const VI along_v = clamp_cell(origin_row, hn::Mul(s_exit, step_v), top, bottom);
       const VI next_column =
           hn::IfThenElse(crosses_u, hn::IfThenElse(up_u, right, hn::Sub(left, one)), along_u);
       const VI next_row = hn::IfThenElse(crosses_u, along_v, hn::IfThenElse(up_v, bottom, hn::Sub(top, one)));
@@ -298,8 +306,8 @@ struct Lanes {
     return hit;
   }
 
-  VI clamp_int(VF position, VI low, VI beyond) const {
-    const VI whole = hn::ConvertTo(kI, hn::Floor(position));
+  VI clamp_cell(VI origin, VF way, VI low, VI beyond) const {
+    const VI whole = hn::Add(origin, hn::ConvertTo(kI, hn::Floor(way)));
     return hn::Min(hn::Max(whole, low), hn::Sub(beyond, set_int(1)));
   }
 };

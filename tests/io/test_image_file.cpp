@@ -24,7 +24,8 @@ std::vector<T> samples_of(const StoredImage& image) {
 TEST_CASE("An 8-bit picture comes back as it was written", "[io]") {
   const ScratchFolder scratch;
   Image<Rgb8> picture(3, 2);
-  for (std::size_t i = 0; i < picture.size(); ++i) picture.values[i] = {static_cast<std::uint8_t>(40 * i), 7, 255};
+  for (std::size_t i = 0; i < picture.size(); ++i)
+    picture.values[i] = {static_cast<std::uint8_t>(40 * i), 7, 255};
   write_png(scratch / "picture.png", picture);
   const StoredImage image = read_image(scratch / "picture.png", FileFormat::png, kPlenty);
   CHECK(image.width == 3);
@@ -80,12 +81,15 @@ TEST_CASE("Text attributes stand in an EXR's header", "[io]") {
 }
 
 TEST_CASE("A full disk is an error of every writer, which names the file", "[io]") {
-  if (!std::filesystem::exists("/dev/full")) return WARN("SKIPPED: no /dev/full");
-  const auto names_it = Contains("/dev/full") && Contains("No space left");
-  CHECK_THROWS_WITH(write_png("/dev/full", Image<Rgb8>(9, 9)), names_it);
-  CHECK_THROWS_WITH(write_png16("/dev/full", Image<std::uint16_t>(9, 9)), names_it);
+  if (!std::filesystem::exists("/dev/full")) {
+    WARN("SKIPPED: no /dev/full");
+    return;
+  }
+  const std::string fault = "/dev/full: cannot be written: No space left on device";
+  CHECK_THROWS_WITH(write_png("/dev/full", Image<Rgb8>(9, 9)), fault);
+  CHECK_THROWS_WITH(write_png16("/dev/full", Image<std::uint16_t>(9, 9)), fault);
   const Map map(300, 300, 1.0f);
-  CHECK_THROWS_WITH(write_float_image("/dev/full", {{"Y", &map}}), names_it);
+  CHECK_THROWS_WITH(write_float_image("/dev/full", {{"Y", &map}}), fault);
 }
 
 TEST_CASE("A folder that is not there is an error of every writer, which names the file", "[io]") {

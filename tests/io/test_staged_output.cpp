@@ -69,7 +69,8 @@ TEST_CASE("A folder that cannot be made is refused by name, and nothing is left 
   const fs::path file = write_text(scratch / "file", "x");
   CHECK_THROWS_WITH(StagedFolder(file), Contains(file.string()) && Contains("not a folder"));
   CHECK_THROWS_WITH(StagedFolder(file / "below"), Contains((file / "below").string()));
-  CHECK_THROWS_AS(StagedFolder(scratch / ("new/" + std::string(300, 'x'))), Error);  // a name too long for any disk
+  CHECK_THROWS_AS(StagedFolder(scratch / ("new/" + std::string(300, 'x'))),
+                  Error);  // a name too long for any disk
   CHECK(scratch.entry_count() == 1);
 }
 

@@ -1,0 +1,94 @@
+#include "cli/albedo.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <optional>
+#include <type_traits>
+
+#include "heightlight/error.h"
+#include "io/image_read.h"
+#include "io/input_file.h"
+
+namespace heightlight {
+namespace {
+
+/// "0.5" or "0.6,0.3,0.2"; nothing where the text is no list of numbers.
+std::optional<std::vector<double>> parse_constants(const std::string& text) {
+  std::vector<double> values;
+  const char* rest = text.c_str();
+  for (;;) {
+    char* end = nullptr;
+    values.push_back(std::strtod(rest, &end));
+    if (end == rest) return std::nullopt;
+    if (*end == '\0') return values;
+    if (*end != ',') return std::nullopt;
+    rest = end + 1;
+  }
+}
+
+std::vector<double> check_constants(const std::string& text, std::vector<double> values) {
+  const bool in_range = std::all_of(values.begin(), values.end(), [](double v) { return v >= 0 && v <= 1; });
+  if (!in_range || (values.size() != 1 && values.size() != 3)) {
+    throw UsageError("--albedo " + text + ": must be one number, or three (R,G,B), each in [0, 1]");
+  }
+  if (std::all_of(values.begin(), values.end(), [&](double v) { return v == values[0]; })) values.resize(1);
+  return values;
+}
+
+/// IEC 61966-2-1, encoded and result in [0, 1].
+double srgb_to_linear(double encoded) {
+  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+}
+
+/// One channel as reflectance.
+TexelVector decode(const StoredImage& image, std::size_t channel) {
+  const std::size_t stride = image.channels.size();
+  return std::visit(
+      [&](const auto& samples) {
+        using Sample = typename std::decay_t<decltype(samples)>::value_type;
+        TexelVector values(static_cast<Eigen::Index>(samples.size() / stride));
+        for (Eigen::Index i = 0; i < values.size(); ++i) {
+          const double stored = static_cast<double>(samples[static_cast<std::size_t>(i) * stride + channel]);
+          values[i] = std::is_integral_v<Sample>
+                          ? srgb_to_linear(stored / static_cast<double>(std::numeric_limits<Sample>::max()))
+                          : stored;
+        }
+        return values;
+      },
+      image.samples);
+}
+
+Albedo read_albedo_file(const std::string& path, const Surface& surface, std::uint64_t memory_limit) {
+  const FileFormat format = recognise_format(path);
+  if (format == FileFormat::esri_grid) throw file_error(path, "an Esri grid holds no albedo; use an image");
+  const StoredImage image = read_image(path, format, memory_limit);
+  if (image.width != surface.width() || image.height != surface.height()) {
+    throw file_error(path, "the albedo is " + std::to_string(image.width) + " × " +
+                               std::to_string(image.height) + ", the heightmap " +
+                               std::to_string(surface.width()) + " × " + std::to_string(surface.height()));
+  }
+  Albedo albedo;
+  const std::size_t channels = image.channels.size() >= 3 ? 3 : 1;  // an alpha channel follows one or three
+  for (std::size_t channel = 0; channel < channels; ++channel) {
+    albedo.varying.push_back(decode(image, channel));
+    const TexelVector& values = albedo.varying.back();
+    if (!(values.minCoeff() >= 0 && values.maxCoeff() <= 1) || values.hasNaN()) {
+      throw file_error(path, "the albedo has samples outside [0, 1]");
+    }
+  }
+  const bool grey = std::all_of(albedo.varying.begin(), albedo.varying.end(),
+                                [&](const TexelVector& values) { return values == albedo.varying[0]; });
+  if (grey) albedo.varying.resize(1);
+  return albedo;
+}
+
+}  // namespace
+
+Albedo read_albedo(const std::string& text, const Surface& surface, std::uint64_t memory_limit) {
+  if (auto constants = parse_constants(text)) return {check_constants(text, std::move(*constants)), {}};
+  return read_albedo_file(text, surface, memory_limit);
+}
+
+}  // namespace heightlight

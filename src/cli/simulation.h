@@ -1,0 +1,64 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/albedo.h"
+#include "cli/map_options.h"
+#include "heightlight/curves.h"
+#include "heightlight/transport.h"
+#include "io/staged_output.h"
+
+namespace heightlight {
+
+/// What `heightlight simulate` was asked for.
+struct SimulateOptions {
+  MapOptions map;
+  RunOptions run;
+  std::filesystem::path folder;
+  int rays = 300;  ///< so that each of 100 bins holds three of the values that α can take
+  int bounces = 20;
+  int bins = 100;
+  std::string albedo = "0.5";
+  bool save_bounces = false;
+};
+
+/// Seconds that each step took.
+struct StepTimes {
+  double load = 0;
+  double visibility = 0;
+  double transport = 0;  ///< setting up the operator: for stored links, counting and checking them
+  double bounces = 0;
+  double curves = 0;
+  double total = 0;
+};
+
+/// What must hold of any surface, as measured on this one.
+struct EnergyCheck {
+  double row_sum_max_error = 0;   ///< |sky + Σ F − 1|
+  double sum_max_error = 0;       ///< |E₀ + … + E_K + tail − 1| at ρ = 1, in units of π
+  double mean_total_over_pi = 1;  ///< mean of that sum
+  double tail_mean = 0;           ///< of the tail after K bounces at ρ = 1, E/π
+  double tail_max = 0;
+  double spectral_radius = 0;
+  double solver_residual = 0;  ///< largest relative residual of the linear solves
+  int solver_iterations = 0;   ///< largest number of iterations among them
+};
+
+/// Everything that the summary reports.
+struct Simulation {
+  SourceFacts facts;
+  std::optional<double> rmse_estimate;  ///< of A; absent where no receiver is
+  std::uint64_t links = 0;
+  std::uint64_t link_bytes = 0;
+  EnergyCheck energy;
+  StepTimes seconds;
+};
+
+/// Writes `summary.json`. Throws Error naming the file.
+void write_summary(const std::filesystem::path& path, const SimulateOptions& options, const Surface& surface,
+                   const Albedo& albedo, const Simulation& simulation);
+
+}  // namespace heightlight

@@ -1,0 +1,83 @@
+#include "heightlight/synth.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+#include "cli/commands.h"
+#include "heightlight/error.h"
+#include "io/image_file.h"
+#include "io/staged_output.h"
+
+namespace heightlight {
+namespace {
+
+struct SynthOptions {
+  std::string shape;
+  std::filesystem::path file;
+  int size = 512;
+  std::uint64_t seed = 1;
+};
+
+std::string lower_case_extension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+Image<std::uint16_t> to_levels(const Image<float>& heights) {
+  Image<std::uint16_t> levels(heights.width, heights.height);
+  std::transform(heights.values.begin(), heights.values.end(), levels.values.begin(),
+                 [](float height) { return static_cast<std::uint16_t>(std::lround(65535 * height)); });
+  return levels;
+}
+
+void run_synth(const SynthOptions& options) {
+  const std::string extension = lower_case_extension(options.file);
+  if (extension != ".png" && extension != ".exr") {
+    throw UsageError(options.file.string() + ": name a .png (16 bits) or an .exr (float) to write");
+  }
+  StagedFile file(options.file);
+  const Image<float> heights = synthesize(options.shape, options.size, options.seed);
+  if (extension == ".png") {
+    write_png16(file.path(), to_levels(heights));
+  } else {
+    write_float_image(file.path(), {{"Y", &heights}});
+  }
+  file.commit();
+}
+
+std::string describe_shapes() {
+  std::string text = "Shapes:\n";
+  for (const SynthShape& shape : synth_shapes()) {
+    text += "  " + shape.name + std::string(9 - shape.name.size(), ' ') + shape.description +
+            (shape.tiles ? "" : " (does not tile)") + "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+void add_synth_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("synth", "Make a heightmap");
+  auto options = std::make_shared<SynthOptions>();
+  command->add_option("SHAPE", options->shape, "what to make; the list is below")->required();
+  command->add_option("-o,--output", options->file, "file to write: .png (16 bits) or .exr (float)")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("--size", options->size, "texels on each side (512)");
+  command->add_option("--seed", options->seed, "seed of fbm, cobbles and brick (1)");
+  command->footer(
+      describe_shapes() +
+      "Heights run from 0 to 1. Of a .png, other commands stretch them to the relief; of an .exr they\n"
+      "stay as they are, so that --width 4 makes the bowl a true spherical cap.\n"
+      "Examples:\n"
+      "  heightlight synth brick -o wall.png --size 1024 --seed 7\n"
+      "  heightlight synth bowl -o bowl.exr --size 256");
+  command->callback([options] { run_synth(*options); });
+}
+
+}  // namespace heightlight

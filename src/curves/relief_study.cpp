@@ -1,0 +1,63 @@
+#include <algorithm>
+#include <cmath>
+
+#include "heightlight/curves.h"
+#include "heightlight/error.h"
+
+namespace heightlight {
+namespace {
+
+/// Every n-th sample from the first on, over the same extent. Where n does not divide a side the places are
+/// rounded down, so that a tile's period stays whole.
+Heightmap decimate(const Heightmap& map, int largest_side) {
+  const int width = map.height.width;
+  const int height = map.height.height;
+  const int n = (std::max(width, height) + largest_side - 1) / largest_side;
+  Heightmap copy = map;
+  copy.height = Image<float>(std::max(1, width / n), std::max(1, height / n));
+  const auto source = [](int i, int from, int to) { return static_cast<int>(std::int64_t{i} * from / to); };
+  for (int row = 0; row < copy.height.height; ++row) {
+    for (int column = 0; column < copy.height.width; ++column) {
+      copy.height(row, column) =
+          map.height(source(row, height, copy.height.height), source(column, width, copy.height.width));
+    }
+  }
+  copy.spacing.x *= static_cast<double>(width) / copy.height.width;
+  copy.spacing.y *= static_cast<double>(height) / copy.height.height;
+  return copy;
+}
+
+BounceCurves simulate_curves(Heightmap map, const FormFactorOptions& options, int bounces, int bins) {
+  const Surface surface = build_surface(std::move(map));
+  const FormFactors form_factors = build_form_factors(surface, options);
+  CurveBuilder builder(form_factors.ambient_occlusion, AoKind::ambient_occlusion, bins);
+  bounce(
+      form_factors, surface, bounces, {},
+      [&](int, const TexelVector& irradiance) { builder.add(irradiance); }, options.quiet);
+  return builder.curves();
+}
+
+}  // namespace
+
+std::vector<ReliefCurves> study_reliefs(const Heightmap& map, const std::vector<double>& relief_shares,
+                                        int largest_side, const FormFactorOptions& options, int bounces,
+                                        int bins) {
+  if (largest_side < 1) throw UsageError("a relief study needs a map of at least one texel a side");
+  if (bounces < 0) throw UsageError("the number of bounces must not be negative");
+  for (const double share : relief_shares) {
+    if (!(share > 0) || !std::isfinite(share)) throw UsageError("a relief must be positive and finite");
+  }
+  const double extent = map.spacing.x * map.height.width;
+  const double tall = relief(map);  // of the whole map: what decimation skips must not change the scale
+  const Heightmap small = decimate(map, largest_side);
+  std::vector<ReliefCurves> study;
+  for (const double share : relief_shares) {
+    Heightmap scaled = small;
+    const double scale = tall > 0 ? share * extent / tall : 1;
+    for (float& height : scaled.height.values) height = static_cast<float>(height * scale);
+    study.push_back({share, simulate_curves(std::move(scaled), options, bounces, bins)});
+  }
+  return study;
+}
+
+}  // namespace heightlight

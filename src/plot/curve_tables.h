@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "heightlight/curves.h"
+
+namespace heightlight {
+
+/// Rows of columns, as gnuplot reads them. A row of NaN stands where bins are empty, which breaks lines
+/// there. A bin without neighbours has two rows, from ao_lo to ao_hi. Without any bin there is one row,
+/// outside the axes: gnuplot complains of tables without a valid point.
+using PlotTable = std::vector<std::vector<double>>;
+
+/// The last bounce K of curves with at least E₀; 0 where no bin is filled.
+int last_bounce(const BounceCurves& curves);
+
+/// ao_mean, bin centre, bin width, count, then p05 and p95 of E₀/π, then the means of E₀/π … E_K/π.
+PlotTable bounce_table(const BounceCurves& curves);
+
+/// ao_mean, then E₀, E₀ + E₁, … , E₀ + … + E_K, and that with the tail; all over π.
+PlotTable sum_table(const BounceCurves& curves);
+
+/// One scan per bounce 1 … K of the points (ao, bounce, mean), all of as many points, from at most 100 bins:
+/// more are taken together. NaN where no texel is.
+std::vector<PlotTable> surface_table(const BounceCurves& curves);
+
+}  // namespace heightlight

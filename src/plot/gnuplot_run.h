@@ -1,0 +1,26 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace gnuplotio {
+class Gnuplot;
+}
+
+namespace heightlight {
+
+/// What a run of gnuplot left behind.
+struct GnuplotResult {
+  std::string output;    ///< its standard output: the picture
+  std::string messages;  ///< its standard error: warnings
+};
+
+/// Runs gnuplot, without anyone's start-up files, on the commands that `write_script` sends. A script that
+/// sets no output file gets its picture back in the result; no file's name ever has to be quoted. Throws
+/// Error naming gnuplot when it is not installed or fails.
+GnuplotResult run_gnuplot(const std::function<void(gnuplotio::Gnuplot&)>& write_script);
+
+/// `text` as a gnuplot string, whatever characters it has.
+std::string gnuplot_quoted(const std::string& text);
+
+}  // namespace heightlight

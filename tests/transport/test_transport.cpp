@@ -1,0 +1,176 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "core/parallel.h"
+#include "heightlight/error.h"
+#include "test_maps.h"
+#include "transport/simulated.h"
+
+namespace heightlight {
+namespace {
+
+constexpr double kRowTolerance = 1e-13;  // identity: n·ε of 128 weights that sum to 1
+
+bool same(const Map& a, const Map& b) {
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (a.values[i] != b.values[i] && !(std::isnan(a.values[i]) && std::isnan(b.values[i]))) return false;
+  }
+  return a.size() == b.size();
+}
+
+TEST_CASE("sky + links = 1, and all bounces with their tail sum to 1", "[transport]") {
+  const Boundary boundary = GENERATE(Boundary::tile, Boundary::open);
+  const double missing = GENERATE(0.0, 0.2);
+  const auto [width, height] =
+      GENERATE(std::pair{24, 24}, std::pair{37, 5}, std::pair{1, 11}, std::pair{3, 2});
+  const double relief = GENERATE(0.02, 0.5);
+  const Simulated rough = simulate_map(make_rough_map(width, height, boundary, relief, missing, 2), 128);
+  CHECK(row_sum_error(rough.form_factors) < kRowTolerance);
+  const TexelVector total = rough.series.sum + rough.tail.irradiance;
+  for (Eigen::Index i = 0; i < total.size(); ++i) {
+    const bool hole = std::isnan(rough.surface.map.height.values[static_cast<std::size_t>(i)]);
+    // the solver's residual, 10⁻⁸, divided by 1 − spectral radius
+    CHECK(total[i] == Approx(hole ? 0 : 1).margin(1e-5));
+  }
+}
+
+TEST_CASE("the white furnace: under albedo 1 and a sky of 1 the irradiance is 1 everywhere", "[transport]") {
+  const Simulated bricks = simulate_map(make_synth_map("brick", 48, Boundary::tile, 0.3), 128);
+  const TexelVector ones = TexelVector::Ones(48 * 48);
+  const TexelVector after = bricks.bounces[0] + gather(bricks.form_factors, ones);
+  CHECK((after - ones).cwiseAbs().maxCoeff() < kRowTolerance);
+}
+
+TEST_CASE("a tail at constant albedo is what further bounces bring", "[transport]") {
+  const double albedo = GENERATE(0.3, 0.8, 1.0);
+  const Simulated few = simulate_map(make_synth_map("sines", 32, Boundary::tile, 0.3), 128, 4);
+  const Simulated many = simulate_map(make_synth_map("sines", 32, Boundary::tile, 0.3), 128, 400);
+  const TexelVector tail = solve_tail(few.form_factors, few.series, albedo).irradiance;
+  const TexelVector expected = sum_of_bounces(many, albedo, 400) - sum_of_bounces(many, albedo, 4);
+  CHECK((tail - expected).cwiseAbs().maxCoeff() < 1e-6);  // truncation at 400 bounces, the solver's 10⁻⁸
+}
+
+TEST_CASE("an albedo map of one value gives what that constant gives", "[transport]") {
+  const Simulated bricks = simulate_map(make_synth_map("brick", 32, Boundary::tile, 0.2), 128);
+  const TexelVector albedo = TexelVector::Constant(32 * 32, 0.7);
+  const TexelVector direct = bricks.form_factors.direct;
+  const TexelVector varying = solve_equilibrium(bricks.form_factors, direct, albedo, direct).irradiance;
+  const TexelVector constant =
+      sum_of_bounces(bricks, 0.7, 20) + solve_tail(bricks.form_factors, bricks.series, 0.7).irradiance;
+  CHECK((varying - constant).cwiseAbs().maxCoeff() < 1e-6);
+}
+
+TEST_CASE("light bounces by the albedo of the place that it comes from", "[transport]") {
+  // A trench with a white left half and a black right half: the black wall's neighbours lose its light.
+  const Simulated trench = simulate_map(make_synth_map("trench", 32, Boundary::tile, 0.3), 256);
+  TexelVector albedo(32 * 32);
+  for (Eigen::Index i = 0; i < albedo.size(); ++i) albedo[i] = i % 32 < 16 ? 1 : 0;
+  const TexelVector direct = trench.form_factors.direct;
+  const TexelVector total = solve_equilibrium(trench.form_factors, direct, albedo, direct).irradiance;
+  CHECK((total - direct).minCoeff() > -1e-9);
+  CHECK(total[16 * 32 + 19] - direct[16 * 32 + 19] > total[16 * 32 + 12] - direct[16 * 32 + 12]);
+}
+
+TEST_CASE("exchange is reciprocal: area times form factor is symmetric", "[transport]") {
+  const Simulated sines = simulate_map(make_synth_map("sines", 64, Boundary::tile, 0.3), 512);
+  const auto n = static_cast<Eigen::Index>(64 * 64);
+  TexelVector x(n), y(n), area(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    x[i] = 1 + std::sin(0.1 * static_cast<double>(i % 64));
+    y[i] = 2 + std::cos(0.2 * static_cast<double>(i / 64));
+    area[i] = 1 / double{sines.surface.normal.values[static_cast<std::size_t>(i)].z()};
+  }
+  const double forth = (area.cwiseProduct(y)).dot(gather(sines.form_factors, x));
+  const double back = (area.cwiseProduct(x)).dot(gather(sines.form_factors, y));
+  CHECK(forth == Approx(back).epsilon(5e-3));  // discretisation: smooth normals stand for facets
+}
+
+TEST_CASE("the spectral radius is the ratio to which bounces settle", "[transport]") {
+  const Simulated sines = simulate_map(make_synth_map("sines", 32, Boundary::tile, 0.3), 256, 400);
+  const double ratio = sines.bounces[400].sum() / sines.bounces[399].sum();
+  const Simulated early = simulate_map(make_synth_map("sines", 32, Boundary::tile, 0.3), 256, 20);
+  CHECK(sines.series.spectral_radius == Approx(ratio).epsilon(1e-3));
+  CHECK(early.series.spectral_radius == Approx(ratio).epsilon(0.05));
+}
+
+TEST_CASE("results do not depend on the number of threads", "[transport]") {
+  const Heightmap map = make_rough_map(40, 29, Boundary::tile, 0.4, 0.1, 6);
+  set_thread_count(1);
+  const Simulated one = simulate_map(map, 128);
+  for (const int threads : {2, 7}) {
+    set_thread_count(threads);
+    const Simulated other = simulate_map(map, 128);
+    CHECK(same(one.form_factors.sky_view_factor, other.form_factors.sky_view_factor));
+    CHECK(same(one.form_factors.ambient_occlusion, other.form_factors.ambient_occlusion));
+    CHECK(one.bounces == other.bounces);
+    CHECK(one.tail.irradiance == other.tail.irradiance);
+  }
+  set_thread_count(0);
+}
+
+TEST_CASE("shifting a tiled map by whole periods of the rays' turns shifts the result, bit for bit",
+          "[transport]") {
+  const Heightmap map = make_synth_map("brick", 128, Boundary::tile, 0.2);
+  const Simulated here = simulate_map(map, 64);
+  const Simulated there = simulate_map(shift_map(map, 64, 64), 64);
+  for (int row = 0; row < 128; ++row) {
+    for (int column = 0; column < 128; ++column) {
+      const Eigen::Index moved = (row + 64) % 128 * 128 + (column + 64) % 128;
+      REQUIRE(here.bounces[3][row * 128 + column] == there.bounces[3][moved]);
+    }
+  }
+}
+
+TEST_CASE("shifting by any other amount changes nothing but the rays' noise: there is no seam",
+          "[transport]") {
+  const Heightmap map = make_synth_map("sines", 48, Boundary::tile, 0.3);
+  const Simulated here = simulate_map(map, 4096, 1);
+  const Simulated there = simulate_map(shift_map(map, 19, 31), 4096, 1);
+  double worst_line = 0;  // a seam would stand out in its row's or column's mean
+  for (int row = 0; row < 48; ++row) {
+    double difference = 0;
+    for (int column = 0; column < 48; ++column) {
+      const Eigen::Index moved = (row + 19) % 48 * 48 + (column + 31) % 48;
+      difference += (here.bounces[0][row * 48 + column] - there.bounces[0][moved]) / 48;
+      CHECK(here.bounces[0][row * 48 + column] == Approx(there.bounces[0][moved]).margin(0.01));
+    }
+    worst_line = std::max(worst_line, std::fabs(difference));
+  }
+  CHECK(worst_line < 8e-4);  // Monte Carlo: 0.001·√2/√48 (RMSE measured at 4096 rays), four times
+}
+
+TEST_CASE("turning a map by 90 degrees turns the result, up to the cells' diagonal", "[transport]") {
+  const Heightmap map = make_map(64, 64, Boundary::tile, [](int row, int column) {
+    const double turn = 2 * std::numbers::pi / 64;
+    return 0.05 * std::sin(turn * (2 * column + row)) + 0.04 * std::sin(turn * (4 * row - 3 * column) + 1.3);
+  });
+  Heightmap turned = map;
+  for (int row = 0; row < 64; ++row) {
+    for (int column = 0; column < 64; ++column) turned.height(63 - column, row) = map.height(row, column);
+  }
+  const Simulated here = simulate_map(map, 512);
+  const Simulated there = simulate_map(turned, 512);
+  double squares = 0;
+  double difference = 0;
+  const TexelVector sum_here = sum_of_bounces(here, 0.8, 20);
+  const TexelVector sum_there = sum_of_bounces(there, 0.8, 20);
+  for (int row = 0; row < 64; ++row) {
+    for (int column = 0; column < 64; ++column) {
+      const double d = sum_here[row * 64 + column] - sum_there[(63 - column) * 64 + row];
+      squares += d * d / 4096;
+      difference += d / 4096;
+    }
+  }
+  CHECK(std::sqrt(squares) < 4e-3);  // Monte Carlo, both maps; discretisation of the diagonal, h²-small here
+  CHECK(std::fabs(difference) < 3e-4);
+}
+
+TEST_CASE("links that would not fit are refused before they are made", "[transport]") {
+  const Surface surface = build_surface(make_synth_map("brick", 64, Boundary::tile, 0.3));
+  CHECK_THROWS_WITH(build_form_factors(surface, {{256, 1}, 100'000}), Catch::Contains("--memory"));
+  CHECK_THROWS_AS(build_form_factors(surface, {{0, 1}}), UsageError);
+}
+
+}  // namespace
+}  // namespace heightlight
