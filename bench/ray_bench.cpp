@@ -27,7 +27,10 @@ struct Scene {
       : surface(build_surface(std::move(map))), caster(surface, {kRays, 1}), mesh(surface) {}
 
   RayBundle aim(int i, RayWorkspace& workspace) const {
-    const std::uint64_t texel = scramble(static_cast<std::uint64_t>(i)) % surface.map.height.size();
+    // Runs of 64 neighbours, since that is the order in which a simulation asks.
+    const std::uint64_t texel =
+        (scramble(static_cast<std::uint64_t>(i / 64)) + static_cast<std::uint64_t>(i % 64)) %
+        surface.map.height.size();
     const int row = static_cast<int>(texel / static_cast<std::uint64_t>(surface.width()));
     const int column = static_cast<int>(texel % static_cast<std::uint64_t>(surface.width()));
     return caster.aim(row, column, caster.directions().turn(row, column), workspace);

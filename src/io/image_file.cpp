@@ -94,6 +94,8 @@ void write_float_image(const std::filesystem::path& path,
     spec.channelnames.push_back(name);
   }
   spec.attribute("compression", "zip");
+  spec.attribute("DateTime",
+                 "1970:01:01 00:00:00");  // else the time of writing: files would differ from run to run
   for (const auto& [name, text] : attributes) spec.attribute(name, text);
 
   const std::string extension = path.extension().string();

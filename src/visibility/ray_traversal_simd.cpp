@@ -29,9 +29,9 @@ constexpr I kI;
 constexpr int kMostLanes = HWY_MAX_BYTES / sizeof(float);
 
 // Looking into cells and refilling lanes cost more than a step, whether one lane needs them or all: lanes
-// wait until this many do. Measured on 8 lanes, fBm 512²: 6.0 million rays per second without waiting, 7.2
-// with.
-constexpr std::size_t kCellsDue = 4;
+// wait until this many do: a fifth more rays per second on 8 lanes. (Two groups of lanes in turn, to hide
+// latency, brought nothing: instructions are the limit.)
+constexpr std::size_t kCellsDue = 3;
 constexpr std::size_t kRefillsDue = 2;
 
 MF to_float(MI mask) { return hn::RebindMask(kF, mask); }
@@ -62,8 +62,9 @@ struct Lanes {
   const RayEnds& ends;
   VF step_u, step_v, slope, per_u, per_v, per_diagonal, s;
   VI column, row, origin_column, origin_row, level, wraps;
+  VI level_offset;  // of the lane's pyramid level: following the level costs less than looking it up
   MI active;
-  int next = 0;
+  int next = 0;  ///< ray to be given out
   HWY_ALIGN std::int32_t ray_of_lane[kMostLanes];
 
   Lanes(const RayGrid& g, const RayBundle& b, const RayEnds& e)
@@ -76,7 +77,8 @@ struct Lanes {
         origin_column(hn::Zero(kI)),
         origin_row(hn::Zero(kI)),
         level(hn::Zero(kI)),
-        wraps(hn::Zero(kI)) {
+        wraps(hn::Zero(kI)),
+        level_offset(hn::Zero(kI)) {
     std::fill(std::begin(ray_of_lane), std::end(ray_of_lane), -1);
     refill();
   }
@@ -106,6 +108,7 @@ struct Lanes {
     origin_row = hn::IfThenElse(fresh, set_int(bundle.row), origin_row);
     s = hn::IfThenZeroElse(to_float(fresh), s);
     level = hn::IfThenZeroElse(fresh, level);
+    level_offset = hn::IfThenZeroElse(fresh, level_offset);
     wraps = hn::IfThenZeroElse(fresh, wraps);
     // Going down the axis, the first cell is the one before the vertex.
     const VI first_column =
@@ -219,80 +222,110 @@ struct Lanes {
     }
   }
 
-  void run() {
-    const MaximumPyramid& pyramid = *grid.pyramid;
-    const VI one = set_int(1);
-    const VI zero = hn::Zero(kI);
+  bool is_done() const { return hn::AllFalse(kI, active); }
+
+  /// Moves every lane by one block: to the sky, down into the block, to what is hit in its cell, or past it.
+  void step() {
+    MI sky = wrap();
+    const Block block = find_block();
     const VF zero_f = hn::Zero(kF);
-    while (!hn::AllFalse(kI, active)) {
-      MI sky = wrap();
-      const VI size = hn::Shl(one, level);
-      const VI mask = hn::Neg(size);
-      const VI left = hn::And(column, mask);
-      const VI top = hn::And(row, mask);
-      const VI right = hn::Min(hn::Add(left, size), set_int(grid.cell_columns));
-      const VI bottom = hn::Min(hn::Add(top, size), set_int(grid.cell_rows));
-      const MI up_u = to_int(hn::Gt(step_u, zero_f));
-      const MI up_v = to_int(hn::Gt(step_v, zero_f));
-      const VI border_u = hn::IfThenElse(up_u, right, left);
-      const VI border_v = hn::IfThenElse(up_v, bottom, top);
-      const VF s_u = hn::Mul(hn::ConvertTo(kF, hn::Sub(border_u, origin_column)), per_u);
-      const VF s_v = hn::Mul(hn::ConvertTo(kF, hn::Sub(border_v, origin_row)), per_v);
-      const VF s_exit = hn::Max(s, hn::Min(s_u, s_v));
-      const VF lowest = rise_at(hn::IfThenElse(hn::Lt(slope, zero_f), s_exit, s));
+    const VF lowest = rise_at(hn::IfThenElse(hn::Lt(slope, zero_f), block.s_exit, s));
+    const VF highest = hn::Set(kF, grid.highest - bundle.height);
+    const MF above_all = hn::And(hn::Ge(lowest, highest), hn::Ge(slope, zero_f));
+    sky = hn::Or(sky, hn::And(active, to_int(above_all)));
+    const MI going = hn::AndNot(sky, active);
 
-      const MF above_all =
-          hn::And(hn::Ge(lowest, hn::Set(kF, grid.highest - bundle.height)), hn::Ge(slope, zero_f));
-      sky = hn::Or(sky, hn::And(active, to_int(above_all)));
-      const MI going = hn::AndNot(sky, active);
-      const VI block =
-          hn::Add(hn::GatherIndex(kI, pyramid.offset.data(), level),
-                  hn::Add(hn::Shl(hn::Shr(row, level), hn::Sub(set_int(pyramid.stride_bits), level)),
-                          hn::Shr(column, level)));
-      const VF block_highest = hn::GatherIndex(kF, pyramid.highest.data(), hn::IfThenElseZero(going, block));
-      const MI near =
-          hn::And(going, to_int(hn::Lt(lowest, hn::Sub(block_highest, hn::Set(kF, bundle.height)))));
-      const MI descends = hn::And(near, hn::Gt(level, zero));
-      const MI at_cell = hn::AndNot(descends, near);
+    const VI entry = hn::IfThenElseZero(going, pyramid_index());
+    const VF block_highest =
+        hn::Sub(hn::GatherIndex(kF, grid.pyramid->highest.data(), entry), hn::Set(kF, bundle.height));
+    const MI near = hn::And(going, to_int(hn::Lt(lowest, block_highest)));
+    const MI descends = hn::And(near, hn::Gt(level, hn::Zero(kI)));
+    const MI at_cell = hn::AndNot(descends, near);
 
-      MI hit = hn::MaskFromVec(zero);
-      VF across = zero_f;
-      VF down = zero_f;
-      MI stays = at_cell;
-      const std::size_t cells = hn::CountTrue(kI, at_cell);
-      if (cells >= kCellsDue || (cells > 0 && cells == hn::CountTrue(kI, going))) {
-        hit = enter_cells(at_cell, s_exit, across, down);
-        stays = hit;
-      }
-
-      const MI advances = hn::AndNot(hn::Or(descends, stays), going);
-      const MI crosses_u = to_int(hn::Le(s_u, s_v));
-      const VI along_u = clamp_cell(origin_column, hn::Mul(s_exit, step_u), left, right);
-      const VI along_v = clamp_cell(origin_row, hn::Mul(s_exit, step_v), top, bottom);
-      const VI next_column =
-          hn::IfThenElse(crosses_u, hn::IfThenElse(up_u, right, hn::Sub(left, one)), along_u);
-      const VI next_row = hn::IfThenElse(crosses_u, along_v, hn::IfThenElse(up_v, bottom, hn::Sub(top, one)));
-      const VI border = hn::IfThenElse(crosses_u, border_u, border_v);
-      const VI last_border = hn::IfThenElse(crosses_u, set_int(grid.cell_columns), set_int(grid.cell_rows));
-      const VI parent_mask = hn::Sub(hn::Add(size, size), one);
-      const MI leaves_parent =
-          hn::Or(hn::Eq(hn::And(border, parent_mask), zero), hn::Eq(border, last_border));
-      const MI climbs = hn::And(advances, hn::And(leaves_parent, hn::Lt(level, set_int(pyramid.levels - 1))));
-      column = hn::IfThenElse(advances, next_column, column);
-      row = hn::IfThenElse(advances, next_row, row);
-      s = hn::IfThenElse(to_float(advances), s_exit, s);
-      level = hn::Add(level, hn::IfThenElseZero(climbs, one));
-      level = hn::Sub(level, hn::IfThenElseZero(descends, one));
-
-      const MI ends_here = hn::Or(sky, hit);
-      if (hn::AllFalse(kI, ends_here)) continue;
-      write_down(ends_here, hit, across, down);
-      active = hn::AndNot(ends_here, active);
-      if (hn::CountTrue(kI, active) + kRefillsDue <= hn::Lanes(kI) || hn::AllFalse(kI, active)) refill();
+    MI hit = hn::MaskFromVec(hn::Zero(kI));
+    VF across = zero_f;
+    VF down = zero_f;
+    MI stays = at_cell;
+    const std::size_t cells = hn::CountTrue(kI, at_cell);
+    if (cells >= kCellsDue || (cells > 0 && cells == hn::CountTrue(kI, going))) {
+      hit = enter_cells(at_cell, block.s_exit, across, down);
+      stays = hit;
     }
+    const MI advances = hn::AndNot(hn::Or(descends, stays), going);
+    const MI climbs = advance(block, advances);
+    change_level(descends, climbs);
+
+    const MI ends_here = hn::Or(sky, hit);
+    if (hn::AllFalse(kI, ends_here)) return;
+    write_down(ends_here, hit, across, down);
+    active = hn::AndNot(ends_here, active);
+    if (hn::CountTrue(kI, active) + kRefillsDue <= hn::Lanes(kI) || hn::AllFalse(kI, active)) refill();
   }
 
  private:
+  /// The block of the pyramid that a lane is in, in cells, and how the ray leaves it.
+  struct Block {
+    VI left, top, right, bottom;
+    MI up_u, up_v;  ///< the ray runs to larger columns, rows
+    MI crosses_u;   ///< it leaves by a column's border
+    VI border;      ///< which
+    VF s_exit;
+  };
+
+  Block find_block() const {
+    const VI size = hn::Shl(set_int(1), level);
+    const VI mask = hn::Neg(size);
+    Block block;
+    block.left = hn::And(column, mask);
+    block.top = hn::And(row, mask);
+    block.right = hn::Min(hn::Add(block.left, size), set_int(grid.cell_columns));
+    block.bottom = hn::Min(hn::Add(block.top, size), set_int(grid.cell_rows));
+    block.up_u = to_int(hn::Gt(step_u, hn::Zero(kF)));
+    block.up_v = to_int(hn::Gt(step_v, hn::Zero(kF)));
+    const VI border_u = hn::IfThenElse(block.up_u, block.right, block.left);
+    const VI border_v = hn::IfThenElse(block.up_v, block.bottom, block.top);
+    const VF s_u = hn::Mul(hn::ConvertTo(kF, hn::Sub(border_u, origin_column)), per_u);
+    const VF s_v = hn::Mul(hn::ConvertTo(kF, hn::Sub(border_v, origin_row)), per_v);
+    block.crosses_u = to_int(hn::Le(s_u, s_v));
+    block.border = hn::IfThenElse(block.crosses_u, border_u, border_v);
+    block.s_exit = hn::Max(s, hn::Min(s_u, s_v));
+    return block;
+  }
+
+  VI pyramid_index() const {
+    const VI stride = hn::Sub(set_int(grid.pyramid->stride_bits), level);
+    return hn::Add(level_offset, hn::Add(hn::Shl(hn::Shr(row, level), stride), hn::Shr(column, level)));
+  }
+
+  /// Moves lanes into the cell beyond their block; returns those that left the block's parent too.
+  MI advance(const Block& block, MI advances) {
+    const VI one = set_int(1);
+    const VI along_u = clamp_cell(origin_column, hn::Mul(block.s_exit, step_u), block.left, block.right);
+    const VI along_v = clamp_cell(origin_row, hn::Mul(block.s_exit, step_v), block.top, block.bottom);
+    const VI beyond_u = hn::IfThenElse(block.up_u, block.right, hn::Sub(block.left, one));
+    const VI beyond_v = hn::IfThenElse(block.up_v, block.bottom, hn::Sub(block.top, one));
+    column = hn::IfThenElse(advances, hn::IfThenElse(block.crosses_u, beyond_u, along_u), column);
+    row = hn::IfThenElse(advances, hn::IfThenElse(block.crosses_u, along_v, beyond_v), row);
+    s = hn::IfThenElse(to_float(advances), block.s_exit, s);
+    const VI last_border =
+        hn::IfThenElse(block.crosses_u, set_int(grid.cell_columns), set_int(grid.cell_rows));
+    const VI parent_mask = hn::Sub(hn::Shl(set_int(2), level), one);
+    const MI leaves_parent =
+        hn::Or(hn::Eq(hn::And(block.border, parent_mask), hn::Zero(kI)), hn::Eq(block.border, last_border));
+    return hn::And(advances, hn::And(leaves_parent, hn::Lt(level, set_int(grid.pyramid->levels - 1))));
+  }
+
+  /// The lower of the two levels between which a lane moves has the entries that its offset moves by.
+  void change_level(MI descends, MI climbs) {
+    const VI one = set_int(1);
+    const VI lower_level = hn::Sub(level, hn::IfThenElseZero(descends, one));
+    const VI rows = hn::Add(hn::Shr(set_int(grid.cell_rows - 1), lower_level), one);
+    const VI entries = hn::Shl(rows, hn::Sub(set_int(grid.pyramid->stride_bits), lower_level));
+    level = hn::Add(lower_level, hn::IfThenElseZero(climbs, one));
+    level_offset = hn::Add(level_offset, hn::IfThenElseZero(climbs, entries));
+    level_offset = hn::Sub(level_offset, hn::IfThenElseZero(descends, entries));
+  }
+
   /// `blocked_in_cell` for some lanes; the others look at the map's first cell, so that no index is out of
   /// range.
   MI enter_cells(MI at_cell, VF s_exit, VF& across, VF& down) {
@@ -313,7 +346,8 @@ struct Lanes {
 };
 
 void traverse_lanes(const RayGrid& grid, const RayBundle& bundle, const RayEnds& ends) {
-  if (bundle.count > 0) Lanes(grid, bundle, ends).run();
+  Lanes lanes(grid, bundle, ends);
+  while (!lanes.is_done()) lanes.step();
 }
 
 }  // namespace heightlight::HWY_NAMESPACE
