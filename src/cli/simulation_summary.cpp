@@ -1,11 +1,9 @@
-#include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "cli/simulation.h"
 #include "core/byte_size.h"
 #include "core/parallel.h"
-#include "io/input_file.h"
+#include "io/output_file.h"
 
 namespace heightlight {
 namespace {
@@ -61,10 +59,7 @@ void write_summary(const std::filesystem::path& path, const SimulateOptions& opt
   summary["memory"] = {{"peak_bytes", peak_memory()}};
   summary["threads"] = thread_count();
 
-  std::ofstream file(path);
-  file << summary.dump(2) << '\n';
-  file.close();
-  if (!file) throw file_error(path, "could not be written");
+  write_bytes(path, summary.dump(2) + '\n');
 }
 
 }  // namespace heightlight

@@ -115,7 +115,7 @@ Paving::Paving(int size, std::uint64_t seed)
 const Stone& Paving::stone_at(double u, double v) const {
   const int row = floor_to_int(v * kRows);
   const int column = floor_to_int(u * kColumns);
-  const Stone* nearest = nullptr;
+  const Stone* nearest = stones_.data();
   double least = 10;
   for (int y = row - kWindow; y <= row + kWindow; ++y) {
     for (int x = column - kWindow; x <= column + kWindow; ++x) {

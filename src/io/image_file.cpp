@@ -6,26 +6,13 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cerrno>
-#include <cstring>
 #include <functional>
 
 #include "io/input_file.h"
+#include "io/output_file.h"
 
 namespace heightlight {
 namespace {
-
-/// Lets `write` fill the file at `path`, then makes sure that every byte went out: a full disk shows late, on
-/// flush.
-void write_file(const std::filesystem::path& path, const std::function<void(std::FILE*)>& write) {
-  errno = 0;
-  File file(std::fopen(path.c_str(), "wb"));
-  if (!file) throw file_error(path, std::string("cannot be written: ") + std::strerror(errno));
-  write(file.get());
-  if (std::fflush(file.get()) != 0 || std::ferror(file.get())) {
-    throw file_error(path, std::string("cannot be written: ") + std::strerror(errno == 0 ? EIO : errno));
-  }
-}
 
 /// Writes through OpenImageIO into a stream of ours, whose errors it would drop.
 void write_oiio(const std::filesystem::path& path, const char* format, const OIIO::ImageSpec& spec,
