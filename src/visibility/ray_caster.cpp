@@ -1,9 +1,12 @@
 #include "visibility/ray_caster.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include "heightlight/error.h"
+#include "visibility/slope_bounds.h"
 
 namespace heightlight {
 namespace {
@@ -33,12 +36,37 @@ struct Frame {
   }
 };
 
+/// From where on each ray has nothing in its way: by the bounds of its quadrant, or because it is above the
+/// map's highest point, `above` the receiver.
+void find_sky_ways(const SlopeBounds& bounds, float above, int count, RayWorkspace& workspace) {
+  const float* step_u = workspace.step_u.data();
+  const float* step_v = workspace.step_v.data();
+  const float* slope = workspace.slope.data();
+  float* sky_way = workspace.sky_way.data();
+  for (int k = 0; k < count; ++k) {
+    sky_way[k] = slope[k] > 0 ? above / slope[k] : std::numeric_limits<float>::infinity();
+  }
+  for (auto level = static_cast<std::size_t>(bounds.levels); level-- > 0;) {
+    const float way = bounds.way[level];
+    const std::array<float, 4> bound{bounds.slope[0][level], bounds.slope[1][level], bounds.slope[2][level],
+                                     bounds.slope[3][level]};
+    for (int k = 0; k < count; ++k) {  // selections only, so that the compiler makes vectors of it
+      const float falling_rows = step_u[k] > 0 ? bound[1] : bound[0];
+      const float rising_rows = step_u[k] > 0 ? bound[3] : bound[2];
+      const float steepest = step_v[k] > 0 ? rising_rows : falling_rows;
+      const float nearer = way < sky_way[k] ? way : sky_way[k];
+      sky_way[k] = slope[k] >= steepest ? nearer : sky_way[k];
+    }
+  }
+}
+
 }  // namespace
 
 RayWorkspace::RayWorkspace(int rays)
     : step_u(padded(rays)),
       step_v(padded(rays)),
       slope(padded(rays)),
+      sky_way(padded(rays)),
       cell(padded(rays)),
       across(padded(rays)),
       down(padded(rays)) {}
@@ -82,14 +110,18 @@ RayBundle RayCaster::aim(int row, int column, const LatticeTurn& turn, RayWorksp
     workspace.step_v[static_cast<std::size_t>(k)] = v * per_texel;
     workspace.slope[static_cast<std::size_t>(k)] = std::clamp(z * per_texel, -kSteepest, kSteepest);
   }
+  const float height = surface_.map.height(row, column);
+  find_sky_ways(bound_slopes(grid_, row, column, height), grid_.highest - height, directions_.count,
+                workspace);
   RayBundle bundle;
   bundle.column = column;
   bundle.row = row;
-  bundle.height = surface_.map.height(row, column);
+  bundle.height = height;
   bundle.count = directions_.count;
   bundle.step_u = workspace.step_u.data();
   bundle.step_v = workspace.step_v.data();
   bundle.slope = workspace.slope.data();
+  bundle.sky_way = workspace.sky_way.data();
   return bundle;
 }
 

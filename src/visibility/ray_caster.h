@@ -12,7 +12,7 @@ namespace heightlight {
 struct RayWorkspace {
   explicit RayWorkspace(int rays);
 
-  std::vector<float> step_u, step_v, slope;
+  std::vector<float> step_u, step_v, slope, sky_way;
   std::vector<std::int32_t> cell;
   std::vector<float> across, down;
 };

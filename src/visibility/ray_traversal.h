@@ -52,6 +52,8 @@ struct RayBundle {
   const float* step_u = nullptr;  ///< g_u
   const float* step_v = nullptr;  ///< g_v
   const float* slope = nullptr;   ///< m
+  const float* sky_way =
+      nullptr;  ///< s from which on nothing is in the way; 0 for rays that see the sky at once
 };
 
 /// Where each ray ended; arrays of `count` entries like the bundle's.

@@ -39,7 +39,7 @@ struct Cell {
 
 struct Walker {
   const RayGrid& grid;
-  float z0, step_u, step_v, slope, per_u, per_v, per_diagonal;
+  float z0, step_u, step_v, slope, sky_way, per_u, per_v, per_diagonal;
   int origin_column, origin_row;  // the receiver, moved by whole tiles when the ray wraps
   int column, row, level = 0, wraps = 0;
   float s = 0;
@@ -50,6 +50,7 @@ struct Walker {
         step_u(away_from_zero(bundle.step_u[ray])),
         step_v(away_from_zero(bundle.step_v[ray])),
         slope(bundle.slope[ray]),
+        sky_way(bundle.sky_way[ray]),
         per_u(1.0F / step_u),
         per_v(1.0F / step_v),
         per_diagonal(1.0F / (step_u - step_v)),
@@ -137,7 +138,7 @@ struct Walker {
       const float s_exit = std::max(s, std::min(s_u, s_v));
       const float lowest = rise_at(slope < 0 ? s_exit : s);
 
-      if (lowest >= grid.highest - z0 && slope >= 0) return kSky;
+      if (s >= sky_way) return kSky;
       const std::int32_t block = grid.pyramid->index(level, row, column);
       if (lowest < grid.pyramid->highest[static_cast<std::size_t>(block)] - z0) {
         if (level > 0) {

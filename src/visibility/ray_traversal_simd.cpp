@@ -60,7 +60,7 @@ struct Lanes {
   const RayGrid& grid;
   const RayBundle& bundle;
   const RayEnds& ends;
-  VF step_u, step_v, slope, per_u, per_v, per_diagonal, s;
+  VF step_u, step_v, slope, sky_way, per_u, per_v, per_diagonal, s;
   VI column, row, origin_column, origin_row, level, wraps;
   VI level_offset;  // of the lane's pyramid level: following the level costs less than looking it up
   MI active;
@@ -88,6 +88,7 @@ struct Lanes {
     HWY_ALIGN std::int32_t is_new[kMostLanes] = {};
     HWY_ALIGN std::int32_t is_active[kMostLanes];
     for (std::size_t lane = 0; lane < hn::Lanes(kI); ++lane) {
+      while (next < bundle.count && bundle.sky_way[next] <= 0) ends.cell[next++] = kSky;
       if (ray_of_lane[lane] < 0 && next < bundle.count) {
         ray_of_lane[lane] = next++;
         is_new[lane] = -1;
@@ -100,6 +101,7 @@ struct Lanes {
     step_u = away_from_zero(hn::GatherIndex(kF, bundle.step_u, ray));
     step_v = away_from_zero(hn::GatherIndex(kF, bundle.step_v, ray));
     slope = hn::GatherIndex(kF, bundle.slope, ray);
+    sky_way = hn::GatherIndex(kF, bundle.sky_way, ray);
     const VF one = hn::Set(kF, 1.0F);
     per_u = hn::Div(one, step_u);
     per_v = hn::Div(one, step_v);
@@ -230,9 +232,7 @@ struct Lanes {
     const Block block = find_block();
     const VF zero_f = hn::Zero(kF);
     const VF lowest = rise_at(hn::IfThenElse(hn::Lt(slope, zero_f), block.s_exit, s));
-    const VF highest = hn::Set(kF, grid.highest - bundle.height);
-    const MF above_all = hn::And(hn::Ge(lowest, highest), hn::Ge(slope, zero_f));
-    sky = hn::Or(sky, hn::And(active, to_int(above_all)));
+    sky = hn::Or(sky, hn::And(active, to_int(hn::Ge(s, sky_way))));
     const MI going = hn::AndNot(sky, active);
 
     const VI entry = hn::IfThenElseZero(going, pyramid_index());

@@ -3,6 +3,7 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -88,6 +89,38 @@ TEST_CASE("the lanes and the scalar twin agree bit for bit", "[visibility]") {
       }
     }
   }
+}
+
+TEST_CASE("sparing rays the walk changes none of their ends", "[visibility]") {
+  const Boundary boundary = GENERATE(Boundary::tile, Boundary::open);
+  const int size =
+      GENERATE(64, 48, 37);  // blocks of the pyramid that fit a tile at all levels, at some, at none
+  const char* shape = GENERATE("fbm", "brick", "steps");
+  const Surface surface = build_surface(make_synth_map(shape, size, boundary, 0.2));
+  const RayCaster caster(surface, {200, 1});
+  RayWorkspace workspace(caster.rays());
+  int spared = 0;
+  for (int texel = 0; texel < size * size; texel += 7) {
+    const int row = texel / size;
+    const int column = texel % size;
+    RayBundle bundle = caster.aim(row, column, caster.directions().turn(row, column), workspace);
+    const TracedRays with = trace(traverse, caster.grid(), bundle);
+    spared += static_cast<int>(std::count(bundle.sky_way, bundle.sky_way + bundle.count, 0.0F));
+    // Without bounds: the sky is reached above the highest point only.
+    for (std::size_t k = 0; k < static_cast<std::size_t>(bundle.count); ++k) {
+      const float above = surface.highest - bundle.height;
+      workspace.sky_way[k] =
+          bundle.slope[k] > 0 ? above / bundle.slope[k] : std::numeric_limits<float>::infinity();
+    }
+    const TracedRays without = trace(traverse, caster.grid(), bundle);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(bundle.count); ++k) {
+      REQUIRE(with.cell[k] == without.cell[k]);
+      if (with.cell[k] == kSky) continue;
+      REQUIRE(with.across[k] == without.across[k]);
+      REQUIRE(with.down[k] == without.down[k]);
+    }
+  }
+  CHECK(spared > size * size / 7 * 10);
 }
 
 TEST_CASE("a ray ends where testing every facet says", "[visibility]") {
