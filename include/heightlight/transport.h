@@ -73,7 +73,7 @@ struct Equilibrium {
   double residual = 0;  ///< |source + F ρ x − x| / |source|
 };
 Equilibrium solve_equilibrium(const FormFactors& form_factors, const TexelVector& source,
-                              const TexelVector& albedo, const TexelVector& guess);
+                              const TexelVector& albedo, const TexelVector& guess, bool quiet = true);
 
 /// Bounces at ρ = 1, from which those at any constant albedo follow: E_b(ρ) = ρ^b E_b. All values are E/π.
 struct BounceSeries {
@@ -91,7 +91,8 @@ BounceSeries bounce(const FormFactors& form_factors, const Surface& surface, int
                     const std::function<void(int, const TexelVector&)>& visit, bool quiet);
 
 /// What all bounces after the K-th bring at constant albedo ρ: ρ^{K+1} t, with t = E_{K+1} + ρ F t.
-Equilibrium solve_tail(const FormFactors& form_factors, const BounceSeries& series, double albedo);
+Equilibrium solve_tail(const FormFactors& form_factors, const BounceSeries& series, double albedo,
+                       bool quiet = true);
 
 /// Values as a map, NaN where the surface has no receiver.
 Map to_map(const TexelVector& values, const Surface& surface);

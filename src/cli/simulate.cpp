@@ -109,20 +109,20 @@ class BounceSink {
 
 /// Total irradiance of all bounces, one vector per channel of the albedo.
 std::vector<TexelVector> solve_totals(const FormFactors& form_factors, const BounceSeries& series,
-                                      const Albedo& albedo, EnergyCheck& energy) {
+                                      const Albedo& albedo, EnergyCheck& energy, bool quiet) {
   std::vector<TexelVector> totals;
   const auto note = [&energy](const Equilibrium& solved) {
     energy.solver_residual = std::max(energy.solver_residual, solved.residual);
     energy.solver_iterations = std::max(energy.solver_iterations, solved.iterations);
   };
   for (std::size_t channel = 0; channel < albedo.constant.size(); ++channel) {
-    const Equilibrium tail = solve_tail(form_factors, series, albedo.constant[channel]);
+    const Equilibrium tail = solve_tail(form_factors, series, albedo.constant[channel], quiet);
     note(tail);
     totals.push_back(series.weighted[channel] + tail.irradiance);
   }
   for (const TexelVector& reflectance : albedo.varying) {
     const Equilibrium all =
-        solve_equilibrium(form_factors, form_factors.direct, reflectance, form_factors.direct);
+        solve_equilibrium(form_factors, form_factors.direct, reflectance, form_factors.direct, quiet);
     note(all);
     totals.push_back(all.irradiance);
   }
@@ -217,10 +217,11 @@ void simulate(SimulateOptions& options) {
   const auto visit = [&sink](int b, const TexelVector& irradiance) { sink.take(b, irradiance); };
   const BounceSeries series =
       bounce(form_factors, surface, options.bounces, albedo.constant, visit, options.run.quiet);
-  const Equilibrium tail = solve_tail(form_factors, series, 1);
+  const Equilibrium tail = solve_tail(form_factors, series, 1, options.run.quiet);
   simulation.energy = check_energy(form_factors, series, tail);
   std::vector<Map> totals;
-  for (const TexelVector& values : solve_totals(form_factors, series, albedo, simulation.energy)) {
+  for (const TexelVector& values :
+       solve_totals(form_factors, series, albedo, simulation.energy, options.run.quiet)) {
     totals.push_back(to_map(values, surface));
   }
   seconds.bounces = watch.lap() - sink.seconds();
@@ -228,7 +229,7 @@ void simulate(SimulateOptions& options) {
   sink.take_tail(tail.irradiance);
   const std::vector<BounceCurves> curves = sink.curves();
   write_curves_csv(folder.file("curves.csv"), curves);
-  const FormFactorOptions study_options{rays, link_memory, true};
+  const FormFactorOptions study_options{rays, link_memory, options.run.quiet};
   const std::vector<ReliefCurves> study =
       study_reliefs(surface.map, kStudiedReliefs, kStudySide, study_options, 1, kStudyBins);
   plot_curves(folder.file("curves.svg"), folder.file("curves.png"),

@@ -9,7 +9,7 @@ namespace heightlight {
 
 Progress::Progress(std::string label, std::int64_t total, bool quiet)
     : label_(std::move(label)),
-      total_(std::max<std::int64_t>(total, 1)),
+      total_(total),
       draws_(!quiet && isatty(STDERR_FILENO) == 1),
       start_(std::chrono::steady_clock::now()) {}
 
@@ -29,6 +29,12 @@ void Progress::add(std::int64_t units) {
 }
 
 void Progress::draw(double seconds, std::int64_t done) {
+  drawn_ = true;
+  if (total_ <= 0) {
+    std::fprintf(stderr, "\r%s … %.0f s \033[K", label_.c_str(), seconds);
+    std::fflush(stderr);
+    return;
+  }
   constexpr int kWidth = 30;
   const double share = std::min(1.0, static_cast<double>(done) / static_cast<double>(total_));
   const double left = share > 0 ? seconds * (1 - share) / share : 0;
@@ -38,7 +44,6 @@ void Progress::draw(double seconds, std::int64_t done) {
   std::fprintf(stderr, "\r%s [%s] %3.0f %%  %.0f s left \033[K", label_.c_str(), bar.c_str(), share * 100,
                left);
   std::fflush(stderr);
-  drawn_ = true;
 }
 
 }  // namespace heightlight

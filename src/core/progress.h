@@ -11,7 +11,8 @@ namespace heightlight {
 /// second. `add` may be called from any thread.
 class Progress {
  public:
-  /// `total` units of work. A silent bar (`quiet`) counts and draws nothing.
+  /// `total` units of work; 0 where nobody knows, which shows the time spent instead. A silent bar (`quiet`)
+  /// draws nothing.
   Progress(std::string label, std::int64_t total, bool quiet);
   ~Progress();
   Progress(const Progress&) = delete;
@@ -25,7 +26,7 @@ class Progress {
   std::string label_;
   std::int64_t total_;
   bool draws_;
-  bool drawn_ = false;
+  std::atomic<bool> drawn_{false};
   std::chrono::steady_clock::time_point start_;
   std::atomic<std::int64_t> done_{0};
   std::atomic<std::int64_t> next_draw_ms_{1000};

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/progress.h"
 #include "heightlight/curves.h"
 #include "heightlight/error.h"
 
@@ -50,12 +51,16 @@ std::vector<ReliefCurves> study_reliefs(const Heightmap& map, const std::vector<
   const double extent = map.spacing.x * map.height.width;
   const double tall = relief(map);  // of the whole map: what decimation skips must not change the scale
   const Heightmap small = decimate(map, largest_side);
+  FormFactorOptions silent = options;
+  silent.quiet = true;  // one bar for the study
+  Progress progress("reliefs", static_cast<std::int64_t>(relief_shares.size()), options.quiet);
   std::vector<ReliefCurves> study;
   for (const double share : relief_shares) {
     Heightmap scaled = small;
     const double scale = tall > 0 ? share * extent / tall : 1;
     for (float& height : scaled.height.values) height = static_cast<float>(height * scale);
-    study.push_back({share, simulate_curves(std::move(scaled), options, bounces, bins)});
+    study.push_back({share, simulate_curves(std::move(scaled), silent, bounces, bins)});
+    progress.add(1);
   }
   return study;
 }

@@ -2,6 +2,7 @@
 #include <Eigen/SparseCore>
 #include <cmath>
 
+#include "core/progress.h"
 #include "heightlight/transport.h"
 
 // x = source + F ρ x is solved as (I − F ρ) x = source. Plain iteration is the bounces themselves and takes
@@ -27,8 +28,8 @@ class LossOperator : public Eigen::EigenBase<LossOperator> {
   using StorageIndex = int;
   enum { ColsAtCompileTime = Eigen::Dynamic, MaxColsAtCompileTime = Eigen::Dynamic, IsRowMajor = false };
 
-  LossOperator(const FormFactors& form_factors, const TexelVector& albedo)
-      : form_factors_(form_factors), albedo_(albedo) {}
+  LossOperator(const FormFactors& form_factors, const TexelVector& albedo, Progress& progress)
+      : form_factors_(form_factors), albedo_(albedo), progress_(progress) {}
 
   Eigen::Index rows() const { return albedo_.size(); }
   Eigen::Index cols() const { return albedo_.size(); }
@@ -39,11 +40,15 @@ class LossOperator : public Eigen::EigenBase<LossOperator> {
     return {*this, right.derived()};
   }
 
-  TexelVector times(const TexelVector& x) const { return x - gather(form_factors_, albedo_.cwiseProduct(x)); }
+  TexelVector times(const TexelVector& x) const {
+    progress_.add(1);
+    return x - gather(form_factors_, albedo_.cwiseProduct(x));
+  }
 
  private:
   const FormFactors& form_factors_;
   const TexelVector& albedo_;
+  Progress& progress_;
 };
 
 }  // namespace heightlight
@@ -70,14 +75,15 @@ constexpr int kMostIterations = 2000;
 }  // namespace
 
 Equilibrium solve_equilibrium(const FormFactors& form_factors, const TexelVector& source,
-                              const TexelVector& albedo, const TexelVector& guess) {
+                              const TexelVector& albedo, const TexelVector& guess, bool quiet) {
   Equilibrium result;
   const double size = source.norm();
   if (size == 0) {
     result.irradiance = source;
     return result;
   }
-  const LossOperator loss(form_factors, albedo);
+  Progress progress("equilibrium", 0, quiet);
+  const LossOperator loss(form_factors, albedo, progress);
   Eigen::BiCGSTAB<LossOperator, Eigen::IdentityPreconditioner> solver;
   solver.setTolerance(kTolerance);
   solver.setMaxIterations(kMostIterations);
@@ -88,9 +94,10 @@ Equilibrium solve_equilibrium(const FormFactors& form_factors, const TexelVector
   return result;
 }
 
-Equilibrium solve_tail(const FormFactors& form_factors, const BounceSeries& series, double albedo) {
+Equilibrium solve_tail(const FormFactors& form_factors, const BounceSeries& series, double albedo,
+                       bool quiet) {
   const TexelVector constant = TexelVector::Constant(series.next.size(), albedo);
-  Equilibrium tail = solve_equilibrium(form_factors, series.next, constant, series.next);
+  Equilibrium tail = solve_equilibrium(form_factors, series.next, constant, series.next, quiet);
   tail.irradiance *= std::pow(albedo, series.bounces + 1);
   return tail;
 }
