@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "heightlight/image.h"
@@ -53,6 +54,7 @@ struct FormFactorOptions {
   RayOptions rays;
   std::uint64_t memory_limit = ~0ULL;  ///< bytes for the links
   bool quiet = true;                   ///< no progress bar
+  std::string map_name = "the map";    ///< for messages
 };
 
 /// Casts rays from every receiver and stores what they see. The bytes are estimated from a sample of

@@ -47,9 +47,12 @@ void check_options(const SimulateOptions& options) {
 
 /// Memory for the links: what the maps and vectors of the other steps leave of the limit.
 std::uint64_t memory_for_links(const SimulateOptions& options, const Heightmap& map) {
-  constexpr std::uint64_t kBytesPerTexel =
-      320;  // heights, normals, pyramid, AO maps, 20 solver vectors, bin order
-  const std::uint64_t needed = map.height.size() * kBytesPerTexel;
+  // Heights, normals, pyramid, AO maps, some 20 vectors of the solver, the bins' order.
+  constexpr std::uint64_t kBytesPerTexel = 320;
+  const std::uint64_t texels = map.height.size();
+  const std::uint64_t studied = std::min<std::uint64_t>(texels, std::uint64_t{kStudySide} * kStudySide);
+  const std::uint64_t study = studied * static_cast<std::uint64_t>(std::max(options.rays, 0)) * sizeof(Link);
+  const std::uint64_t needed = texels * kBytesPerTexel + study;
   if (needed >= options.run.memory) {
     throw Error(options.map.path.string() + ": simulating " + std::to_string(map.height.width) + " × " +
                 std::to_string(map.height.height) + " texels needs " + format_byte_size(needed) +
@@ -205,7 +208,8 @@ void simulate(SimulateOptions& options) {
   seconds.load = watch.lap();
 
   const RayOptions rays{options.rays, options.run.seed};
-  const FormFactors form_factors = build_form_factors(surface, {rays, link_memory, options.run.quiet});
+  const FormFactors form_factors =
+      build_form_factors(surface, {rays, link_memory, options.run.quiet, options.map.path.string()});
   const double rmse = estimate_ray_rmse(surface, rays);
   if (!std::isnan(rmse)) simulation.rmse_estimate = rmse;
   seconds.visibility = watch.lap();
@@ -229,7 +233,9 @@ void simulate(SimulateOptions& options) {
   sink.take_tail(tail.irradiance);
   const std::vector<BounceCurves> curves = sink.curves();
   write_curves_csv(folder.file("curves.csv"), curves);
-  const FormFactorOptions study_options{rays, link_memory, options.run.quiet};
+  FormFactorOptions study_options;
+  study_options.rays = rays;
+  study_options.quiet = options.run.quiet;
   const std::vector<ReliefCurves> study =
       study_reliefs(surface.map, kStudiedReliefs, kStudySide, study_options, 1, kStudyBins);
   plot_curves(folder.file("curves.svg"), folder.file("curves.png"),

@@ -7,7 +7,9 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "core/interrupt.h"
 #include "heightlight/error.h"
@@ -51,6 +53,18 @@ class MemoryFile {
   int descriptor_;
 };
 
+/// The environment, with the locale that the scripts are written for: in any other, gnuplot may stumble over
+/// Greek letters and degree signs.
+std::vector<std::string> gnuplot_environment() {
+  std::vector<std::string> variables;
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    const std::string_view text = *variable;
+    if (!text.starts_with("LC_") && !text.starts_with("LANG")) variables.emplace_back(text);
+  }
+  variables.emplace_back("LC_ALL=C.UTF-8");
+  return variables;
+}
+
 /// Starts gnuplot on the three files and waits; its exit status as waitpid reports it.
 int spawn_gnuplot(const MemoryFile& input, const MemoryFile& output, const MemoryFile& messages) {
   posix_spawn_file_actions_t actions;
@@ -62,8 +76,12 @@ int spawn_gnuplot(const MemoryFile& input, const MemoryFile& output, const Memor
   std::string without_start_up_files = "-d";
   std::string script = "/dev/stdin";  // as a file, whose first error ends the run
   char* const arguments[] = {name.data(), without_start_up_files.data(), script.data(), nullptr};
+  std::vector<std::string> variables = gnuplot_environment();
+  std::vector<char*> environment;
+  for (std::string& variable : variables) environment.push_back(variable.data());
+  environment.push_back(nullptr);
   pid_t child = 0;
-  const int failure = posix_spawnp(&child, name.c_str(), &actions, nullptr, arguments, environ);
+  const int failure = posix_spawnp(&child, name.c_str(), &actions, nullptr, arguments, environment.data());
   posix_spawn_file_actions_destroy(&actions);
   if (failure != 0)
     throw gnuplot_error("which cannot be started (is it installed?): " + system_message(failure));

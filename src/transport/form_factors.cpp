@@ -34,12 +34,13 @@ double estimate_hits(const Surface& surface, const RayCaster& caster) {
   return sum / kSample;
 }
 
-void check_memory(std::uint64_t bytes, std::uint64_t limit, const Surface& surface, int rays) {
-  if (bytes <= limit) return;
-  throw Error("the links of " + std::to_string(surface.width()) + " × " + std::to_string(surface.height()) +
-              " texels at " + std::to_string(rays) + " rays need " + format_byte_size(bytes) +
-              ", more than the " + format_byte_size(limit) +
-              " allowed: use fewer --rays, a smaller map, or more --memory");
+void check_memory(std::uint64_t bytes, const FormFactorOptions& options, const Surface& surface) {
+  if (bytes <= options.memory_limit) return;
+  throw Error(options.map_name + ": the links of " + std::to_string(surface.width()) + " × " +
+              std::to_string(surface.height()) + " texels at " + std::to_string(options.rays.rays) +
+              " rays need " + format_byte_size(bytes) + ", more than the " +
+              format_byte_size(options.memory_limit) +
+              " that --memory leaves for them: use fewer --rays, a smaller map, or more memory");
 }
 
 /// Casts one row's rays into its links and its part of the sky maps.
@@ -92,8 +93,7 @@ FormFactors build_form_factors(const Surface& surface, const FormFactorOptions& 
   const double receiver_bytes =
       kMargin * estimate_hits(surface, caster) * sizeof(Link) + sizeof(std::uint64_t) + 1;
   const double texels = static_cast<double>(surface.map.height.size());
-  check_memory(static_cast<std::uint64_t>(receiver_bytes * texels), options.memory_limit, surface,
-               caster.rays());
+  check_memory(static_cast<std::uint64_t>(receiver_bytes * texels), options, surface);
 
   FormFactors form_factors;
   form_factors.width = surface.width();
@@ -111,7 +111,7 @@ FormFactors build_form_factors(const Surface& surface, const FormFactorOptions& 
         fill_row(surface, caster, static_cast<int>(row), form_factors);
         const std::uint64_t row_bytes =
             form_factors.rows[static_cast<std::size_t>(row)].links.size() * sizeof(Link);
-        check_memory(taken.fetch_add(row_bytes) + row_bytes, options.memory_limit, surface, caster.rays());
+        check_memory(taken.fetch_add(row_bytes) + row_bytes, options, surface);
       },
       &progress);
   return form_factors;

@@ -78,12 +78,6 @@ RayCaster::RayCaster(const Surface& surface, const RayOptions& options)
   grid_ = make_ray_grid(surface, pyramid_);
 }
 
-std::uint64_t ray_caster_bytes(const Surface& surface, const RayOptions& options) {
-  return maximum_pyramid_bytes(std::max(1, surface.cell_columns()), std::max(1, surface.cell_rows())) +
-         static_cast<std::uint64_t>(options.rays) * HemisphereDirections::kTables *
-             (2 * sizeof(float) + sizeof(double));
-}
-
 RayBundle RayCaster::aim(int row, int column, const LatticeTurn& turn, RayWorkspace& workspace) const {
   const Frame frame(surface_.normal(row, column));
   const auto table = static_cast<std::size_t>(turn.table);

@@ -41,7 +41,4 @@ class RayCaster {
   HemisphereDirections directions_;
 };
 
-/// Bytes that a caster for such a surface takes.
-std::uint64_t ray_caster_bytes(const Surface& surface, const RayOptions& options);
-
 }  // namespace heightlight

@@ -56,7 +56,7 @@ TEST_CASE("bad input gets one line that names it, and leaves no file behind", "[
       Case{"simulate text.png -o out", 1, "text.png", "not"},
       Case{"simulate zero.asc -o out", 1, "zero.asc", "0"},
       Case{"simulate map.png -o out --memory 20k", 1, "map.png", "--memory"},
-      Case{"simulate map.png -o out --memory 100k --rays 65536", 1, "16 × 16", "--memory"},
+      Case{"simulate map.png -o out --memory 100k --rays 65536", 1, "map.png", "--memory"},
       Case{"simulate holes.asc -o out", 1, "holes.asc", "missing"},
       Case{"simulate map.png -o file/out", 1, "file", ""}, Case{"simulate map.png -o file", 1, "file", ""},
       Case{"simulate map.png -o out --albedo 1.5", 2, "--albedo 1.5", "[0, 1]"},

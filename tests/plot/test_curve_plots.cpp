@@ -76,6 +76,22 @@ TEST_CASE("gnuplot has nothing to complain of, whichever bins are filled", "[plo
   CHECK(draw_curves("svg", CurvePlotInput{}).messages.empty());
 }
 
+TEST_CASE("the figure does not depend on the user's locale", "[plot]") {
+  const CurvePlotInput input = input_of(make_curves(300, 0, 1, 3));
+  const GnuplotResult here = draw_curves("svg", input);
+  const char* locale = std::getenv("LC_ALL");
+  const std::string before = locale ? locale : "";
+  setenv("LC_ALL", "C", 1);
+  const GnuplotResult plain = draw_curves("svg", input);
+  if (locale) {
+    setenv("LC_ALL", before.c_str(), 1);
+  } else {
+    unsetenv("LC_ALL");
+  }
+  CHECK(plain.messages.empty());
+  CHECK((plain.output == here.output));
+}
+
 TEST_CASE("Without gnuplot the figure is an error which names it, and no file", "[plot]") {
   const ScratchFolder scratch;
   const ScopedPath no_path("");
