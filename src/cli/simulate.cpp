@@ -2,6 +2,8 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <set>
+#include <system_error>
 
 #include "cli/commands.h"
 #include "cli/simulation.h"
@@ -42,6 +44,20 @@ void check_options(const SimulateOptions& options) {
   }
   if (options.bins < 1 || options.bins > 10000) {
     throw UsageError("--bins " + std::to_string(options.bins) + ": must be from 1 to 10000");
+  }
+}
+
+/// Inputs are never replaced: a map called height.png would be, if the results went into its own folder.
+void refuse_to_replace(const std::filesystem::path& input, const std::filesystem::path& folder) {
+  static const std::set<std::string> kResults{
+      "height.png", "ambient_occlusion.png", "sky_view_factor.png", "irradiance_total.png", "bounces.png",
+      "curves.png", "ambient_occlusion.exr", "sky_view_factor.exr", "irradiance_total.exr"};
+  const std::string name = input.filename().string();
+  const bool is_result =
+      kResults.contains(name) || (name.starts_with("irradiance_") && name.ends_with(".exr"));
+  std::error_code ignored;  // of files that do not exist, which nothing replaces
+  if (is_result && std::filesystem::equivalent(input, folder / name, ignored)) {
+    throw UsageError(input.string() + ": the results would replace it; choose another folder with -o");
   }
 }
 
@@ -199,6 +215,8 @@ void simulate(SimulateOptions& options) {
   apply_run_options(options.run);
   check_options(options);
 
+  refuse_to_replace(options.map.path, options.folder);
+  refuse_to_replace(options.albedo, options.folder);
   LoadedHeightmap loaded = load_heightmap(options.map.path, options.map.load, options.run.memory);
   simulation.facts = loaded.facts;
   const std::uint64_t link_memory = memory_for_links(options, loaded.map);

@@ -36,6 +36,7 @@ void write_inputs(const ScratchFolder& folder) {
   write_png16(folder / "small.png", Image<std::uint16_t>(8, 8));
   const Map bright(16, 16, 1.5F);
   write_float_image(folder / "bright.exr", {{"Y", &bright}});
+  std::filesystem::copy_file(folder / "map.png", folder / "height.png");
   std::filesystem::create_directory(folder / "folder.png");
   write_text(folder / "file", "a file where a folder should be");
 }
@@ -58,6 +59,7 @@ TEST_CASE("bad input gets one line that names it, and leaves no file behind", "[
       Case{"simulate map.png -o out --memory 20k", 1, "map.png", "--memory"},
       Case{"simulate map.png -o out --memory 100k --rays 65536", 1, "map.png", "--memory"},
       Case{"simulate holes.asc -o out", 1, "holes.asc", "missing"},
+      Case{"simulate height.png -o .", 2, "height.png", "replace"},
       Case{"simulate map.png -o file/out", 1, "file", ""}, Case{"simulate map.png -o file", 1, "file", ""},
       Case{"simulate map.png -o out --albedo 1.5", 2, "--albedo 1.5", "[0, 1]"},
       Case{"simulate map.png -o out --albedo 0.1,0.2", 2, "--albedo 0.1,0.2", "three"},
