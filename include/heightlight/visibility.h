@@ -13,6 +13,9 @@ struct RayOptions {
   std::uint64_t seed = 1;  ///< of the per-texel rotations
 };
 
+/// Throws UsageError, naming `--rays`, unless the number of rays is in its range.
+void check_ray_options(const RayOptions& options);
+
 /// A place on the surface: a point of the cell whose upper left vertex is `cell` (index into the height
 /// image). `across` and `down` are its coordinates inside the cell, in [0, 1]; across ≥ down is the upper
 /// right triangle.

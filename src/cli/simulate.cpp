@@ -39,6 +39,7 @@ class StopWatch {
 };
 
 void check_options(const SimulateOptions& options) {
+  check_ray_options({options.rays, options.run.seed});
   if (options.bounces < 1 || options.bounces > 1000) {
     throw UsageError("--bounces " + std::to_string(options.bounces) + ": must be from 1 to 1000");
   }
@@ -67,7 +68,7 @@ std::uint64_t memory_for_links(const SimulateOptions& options, const Heightmap& 
   constexpr std::uint64_t kBytesPerTexel = 320;
   const std::uint64_t texels = map.height.size();
   const std::uint64_t studied = std::min<std::uint64_t>(texels, std::uint64_t{kStudySide} * kStudySide);
-  const std::uint64_t study = studied * static_cast<std::uint64_t>(std::max(options.rays, 0)) * sizeof(Link);
+  const std::uint64_t study = studied * static_cast<std::uint64_t>(options.rays) * sizeof(Link);
   const std::uint64_t needed = texels * kBytesPerTexel + study;
   if (needed >= options.run.memory) {
     throw Error(options.map.path.string() + ": simulating " + std::to_string(map.height.width) + " × " +

@@ -14,11 +14,9 @@ namespace {
 constexpr int kMostRays = 65536;
 constexpr float kSteepest = 1e30F;  // finite, so that 0 · slope stays 0
 
-int checked_ray_count(int rays) {
-  if (rays < 1 || rays > kMostRays) {
-    throw UsageError("--rays " + std::to_string(rays) + ": must be from 1 to " + std::to_string(kMostRays));
-  }
-  return rays;
+HemisphereDirections make_directions(const RayOptions& options) {
+  check_ray_options(options);
+  return make_hemisphere_directions(options.rays, options.seed);
 }
 
 std::size_t padded(int rays) { return static_cast<std::size_t>(rays + kRayPadding); }
@@ -62,6 +60,12 @@ void find_sky_ways(const SlopeBounds& bounds, float above, int count, RayWorkspa
 
 }  // namespace
 
+void check_ray_options(const RayOptions& options) {
+  if (options.rays >= 1 && options.rays <= kMostRays) return;
+  throw UsageError("--rays " + std::to_string(options.rays) + ": must be from 1 to " +
+                   std::to_string(kMostRays));
+}
+
 RayWorkspace::RayWorkspace(int rays)
     : step_u(padded(rays)),
       step_v(padded(rays)),
@@ -72,8 +76,7 @@ RayWorkspace::RayWorkspace(int rays)
       down(padded(rays)) {}
 
 RayCaster::RayCaster(const Surface& surface, const RayOptions& options)
-    : surface_(surface),
-      directions_(make_hemisphere_directions(checked_ray_count(options.rays), options.seed)) {
+    : surface_(surface), directions_(make_directions(options)) {
   if (surface.cell_columns() > 0 && surface.cell_rows() > 0) pyramid_ = build_maximum_pyramid(surface);
   grid_ = make_ray_grid(surface, pyramid_);
 }

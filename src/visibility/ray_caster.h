@@ -22,6 +22,8 @@ class RayCaster {
  public:
   /// Throws UsageError unless 1 ≤ options.rays ≤ 65536.
   RayCaster(const Surface& surface, const RayOptions& options);
+  RayCaster(const RayCaster&) = delete;  // its grid refers to its pyramid
+  RayCaster& operator=(const RayCaster&) = delete;
 
   int rays() const { return directions_.count; }
   const HemisphereDirections& directions() const { return directions_; }

@@ -70,6 +70,7 @@ TEST_CASE("bad input gets one line that names it, and leaves no file behind", "[
       Case{"simulate map.png -o out --relief -1", 2, "--relief", "positive"},
       Case{"simulate map.png -o out --relief nan", 2, "--relief", "positive"},
       Case{"simulate map.png -o out --rays 0", 2, "--rays 0", "65536"},
+      Case{"simulate map.png -o out --rays 65537", 2, "--rays 65537", "65536"},
       Case{"simulate map.png -o out --bins 0", 2, "--bins 0", "from 1"},
       Case{"simulate map.png -o out --bounces 0", 2, "--bounces 0", "from 1"},
       Case{"simulate map.png -o out --boundary round", 2, "--boundary", "round"},
