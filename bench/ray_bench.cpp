@@ -26,14 +26,17 @@ struct Scene {
   explicit Scene(Heightmap map)
       : surface(build_surface(std::move(map))), caster(surface, {kRays, 1}), mesh(surface) {}
 
-  RayBundle aim(int i, RayWorkspace& workspace) const {
+  using Aim = RayBundle (RayCaster::*)(int, int, const LatticeTurn&, RayWorkspace&) const;
+
+  /// The rays of the i-th receiver; `aim` says whether with our bounds or, for a peer, without their cost.
+  RayBundle rays_of(int i, Aim aim, RayWorkspace& workspace) const {
     // Runs of 64 neighbours, since that is the order in which a simulation asks.
     const std::uint64_t texel =
         (scramble(static_cast<std::uint64_t>(i / 64)) + static_cast<std::uint64_t>(i % 64)) %
         surface.map.height.size();
     const int row = static_cast<int>(texel / static_cast<std::uint64_t>(surface.width()));
     const int column = static_cast<int>(texel % static_cast<std::uint64_t>(surface.width()));
-    return caster.aim(row, column, caster.directions().turn(row, column), workspace);
+    return (caster.*aim)(row, column, caster.directions().turn(row, column), workspace);
   }
 };
 
@@ -48,7 +51,7 @@ void trace_ours(benchmark::State& state, const Scene& scene,
   std::int64_t rays = 0;
   int i = 0;
   for (auto _ : state) {
-    const RayBundle bundle = scene.aim(i++ % kReceivers, workspace);
+    const RayBundle bundle = scene.rays_of(i++ % kReceivers, &RayCaster::aim, workspace);
     traverse_rays(scene.caster.grid(), bundle, ends_of(workspace));
     benchmark::DoNotOptimize(workspace.cell.data());
     rays += kRays;
@@ -70,7 +73,7 @@ double disagreement(const Scene& scene) {
   int compared = 0;
   int different = 0;
   for (int i = 0; i < kReceivers; ++i) {
-    const RayBundle bundle = scene.aim(i, workspace);
+    const RayBundle bundle = scene.rays_of(i, &RayCaster::aim, workspace);
     traverse(scene.caster.grid(), bundle, ends_of(workspace));
     for (int first = 0; first < kRays; first += 8) {
       alignas(32) RTCRayHit8 packet = scene.mesh.packet(bundle, first);
@@ -96,7 +99,7 @@ void trace_embree(benchmark::State& state, const Scene& scene, bool closest) {
   std::int64_t rays = 0;
   int i = 0;
   for (auto _ : state) {
-    const RayBundle bundle = scene.aim(i++ % kReceivers, workspace);
+    const RayBundle bundle = scene.rays_of(i++ % kReceivers, &RayCaster::aim_directions, workspace);
     for (int first = 0; first < kRays; first += 8) {
       alignas(32) RTCRayHit8 packet = scene.mesh.packet(bundle, first);
       if (closest) {

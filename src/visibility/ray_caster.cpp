@@ -81,7 +81,8 @@ RayCaster::RayCaster(const Surface& surface, const RayOptions& options)
   grid_ = make_ray_grid(surface, pyramid_);
 }
 
-RayBundle RayCaster::aim(int row, int column, const LatticeTurn& turn, RayWorkspace& workspace) const {
+RayBundle RayCaster::aim_directions(int row, int column, const LatticeTurn& turn,
+                                    RayWorkspace& workspace) const {
   const Frame frame(surface_.normal(row, column));
   const auto table = static_cast<std::size_t>(turn.table);
   const float* cosine = directions_.cosine[table].data();
@@ -107,17 +108,21 @@ RayBundle RayCaster::aim(int row, int column, const LatticeTurn& turn, RayWorksp
     workspace.step_v[static_cast<std::size_t>(k)] = v * per_texel;
     workspace.slope[static_cast<std::size_t>(k)] = std::clamp(z * per_texel, -kSteepest, kSteepest);
   }
-  const float height = surface_.map.height(row, column);
-  find_sky_ways(bound_slopes(grid_, row, column, height), grid_.highest - height, directions_.count,
-                workspace);
   RayBundle bundle;
   bundle.column = column;
   bundle.row = row;
-  bundle.height = height;
+  bundle.height = surface_.map.height(row, column);
   bundle.count = directions_.count;
   bundle.step_u = workspace.step_u.data();
   bundle.step_v = workspace.step_v.data();
   bundle.slope = workspace.slope.data();
+  return bundle;
+}
+
+RayBundle RayCaster::aim(int row, int column, const LatticeTurn& turn, RayWorkspace& workspace) const {
+  RayBundle bundle = aim_directions(row, column, turn, workspace);
+  const SlopeBounds bounds = bound_slopes(grid_, row, column, bundle.height);
+  find_sky_ways(bounds, grid_.highest - bundle.height, bundle.count, workspace);
   bundle.sky_way = workspace.sky_way.data();
   return bundle;
 }

@@ -31,7 +31,11 @@ class RayCaster {
   /// What the receiver at (row, column) sees. Safe to call from many threads with a workspace each.
   void view(int row, int column, RayWorkspace& workspace, ReceiverView& view) const;
 
-  /// The grid rays of a receiver that is present: for `view`, and for comparing with other ray tracers.
+  /// The grid rays of a receiver that is present, without the ways after which they are sure of the sky: what
+  /// another ray tracer needs to send the same rays.
+  RayBundle aim_directions(int row, int column, const LatticeTurn& turn, RayWorkspace& workspace) const;
+
+  /// Likewise, ready for `traverse`.
   RayBundle aim(int row, int column, const LatticeTurn& turn, RayWorkspace& workspace) const;
 
   const RayGrid& grid() const { return grid_; }
