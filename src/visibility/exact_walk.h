@@ -1,0 +1,75 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <vector>
+
+#include "heightlight/surface.h"
+#include "heightlight/visibility.h"
+#include "surface/maximum_pyramid.h"
+#include "visibility/profile_walk.h"
+#include "visibility/ray_traversal.h"
+
+// The readable, double-precision reference for what horizons tell: each azimuth's profile is walked
+// breakpoint by breakpoint (profile_walk.h), and every visible stretch is integrated in closed form
+// (slice_integrals.h). The only error is that of few azimuths.
+//
+// Azimuths are the world angles φ_k = 2π (k + ¼)/K, counterclockwise from x. The quarter matters: materials
+// are full of features that an axis mirrors, for which 0 or ½ would make azimuths see everything twice. With
+// ¼ the mirrored azimuths lie halfway between the others, so that K of them do the work of 2K there.
+//
+// The slices' cosine-weighted masses sum to π only as K grows; dividing by their sum makes the sky and the
+// links of a receiver sum to 1 whatever its tilt. Likewise for the solid angle, 2π.
+
+namespace heightlight {
+
+/// A share of a receiver's cosine-weighted hemisphere and the place that it sees.
+struct VisibleInterval {
+  double weight = 0;  ///< form factor; sky view factor + Σ weights = 1
+  SurfacePoint place;
+};
+
+/// What one receiver sees in all azimuths. Where the sample is missing both vectors are empty and the rest is
+/// NaN.
+struct SliceView {
+  double ambient_occlusion = 1;                            ///< α: of the solid angle
+  double sky_view_factor = 1;                              ///< A: of the form factor
+  Eigen::Vector3d bent_normal = Eigen::Vector3d::UnitZ();  ///< unit, cosine weighted; world axes
+  std::vector<double> horizon_rad;  ///< per azimuth: elevation of the profile's steepest point, which may be
+                                    ///< below the tangent plane; −π/2 where there is no surface
+  std::vector<VisibleInterval> links;  ///< by azimuth, each from below upwards
+};
+
+/// Walks from the vertices of a surface. Holds what all receivers share; the surface must outlive it.
+class ExactWalker {
+ public:
+  /// `azimuths` ≥ 1; `reach` > 0: nothing farther away (world units, horizontally) counts.
+  ExactWalker(const Surface& surface, int azimuths, double reach = std::numeric_limits<double>::infinity());
+  ExactWalker(const ExactWalker&) = delete;  // its grid refers to its pyramid
+  ExactWalker& operator=(const ExactWalker&) = delete;
+
+  int azimuths() const { return azimuths_; }
+
+  /// φ_k of the k-th azimuth.
+  double azimuth_rad(int k) const;
+
+  /// What the receiver at (row, column) sees. Safe to call from many threads with a view each.
+  void view(int row, int column, SliceView& view) const;
+
+  /// Elevation of the horizon in any one azimuth, counterclockwise from x; as SliceView::horizon_rad. NaN
+  /// where the sample is missing.
+  double horizon_rad(int row, int column, double azimuth_rad) const;
+
+ private:
+  /// Slope of the horizon along a horizontal unit vector; appends what is seen above `least_slope`.
+  double walk(int row, int column, const Eigen::Vector2d& azimuth, double least_slope,
+              std::vector<VisibleStretch>& stretches) const;
+
+  const Surface& surface_;
+  MaximumPyramid pyramid_;
+  RayGrid grid_;
+  int azimuths_;
+  double reach_;
+};
+
+}  // namespace heightlight

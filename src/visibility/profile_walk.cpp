@@ -1,0 +1,262 @@
+#include "visibility/profile_walk.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace heightlight {
+namespace {
+
+/// A point of the profile; `rise` is NaN in a hole.
+struct Breakpoint {
+  double way = 0;
+  double rise = 0;
+
+  double slope() const { return rise / way; }
+};
+
+double clamp_unit(double value) { return std::min(std::max(value, 0.0), 1.0); }
+
+/// The four corners of a cell above the receiver.
+struct Cell {
+  double upper_left, upper_right, lower_left, lower_right;
+
+  Cell(const RayGrid& grid, double height, int row, int column) {
+    const int right = column + 1 == grid.width ? 0 : column + 1;
+    const int below = grid.tiles && row + 1 == grid.cell_rows ? 0 : row + 1;
+    const float* upper = grid.height + static_cast<std::ptrdiff_t>(row) * grid.width;
+    const float* lower = grid.height + static_cast<std::ptrdiff_t>(below) * grid.width;
+    upper_left = double{upper[column]} - height;
+    upper_right = double{upper[right]} - height;
+    lower_left = double{lower[column]} - height;
+    lower_right = double{lower[right]} - height;
+  }
+
+  /// On the diagonal; a hole where one of its ends is missing.
+  double rise_on_diagonal(double across) const { return upper_left + across * (lower_right - upper_left); }
+
+  /// Is one of the facet's samples missing?
+  bool is_hole(bool upper_right_facet) const {
+    return std::isnan(upper_left + lower_right + (upper_right_facet ? upper_right : lower_left));
+  }
+};
+
+/// A side of a cell: a column's line or a row's, the one with the larger index (right, lower) or the smaller.
+/// The right and upper sides belong to the upper right facet.
+struct Side {
+  bool of_column;
+  bool larger;
+
+  bool is_upper_right() const { return of_column == larger; }
+
+  double rise(const Cell& cell, double along) const {
+    if (cell.is_hole(is_upper_right())) return std::numeric_limits<double>::quiet_NaN();
+    const double from = larger ? (of_column ? cell.upper_right : cell.lower_left) : cell.upper_left;
+    const double to = larger ? cell.lower_right : (of_column ? cell.lower_left : cell.upper_right);
+    return from + along * (to - from);
+  }
+};
+
+/// Progress along one axis. Lines are the columns (or rows); they are counted from the receiver on, which
+/// stands on line 0.
+struct Axis {
+  double speed;     // |g|, lines per way
+  double per_line;  // way per line; ∞ where the profile runs along one
+  bool rising;      // towards larger indices
+  int cells;        // of the map
+  int origin;       // the receiver's line, moved by whole tiles when the profile wraps
+  int cell;         // where the profile is
+  int crossed = 0;  // lines crossed
+
+  Axis(double step, int start, int cell_count)
+      : speed(std::fabs(step)),
+        per_line(1 / speed),
+        // A profile along a line runs on the side where the map has cells.
+        rising(step > 0 || (step == 0 && start < cell_count)),
+        cells(cell_count),
+        origin(start),
+        cell(rising ? start : start - 1) {}
+
+  /// The line by which a block of 2^level cells is left.
+  int exit_line(int level) const {
+    const int first = cell & ~((1 << level) - 1);
+    return rising ? std::min(first + (1 << level), cells) - origin : origin - first;
+  }
+
+  double way_to(int line) const { return line * per_line; }
+
+  /// Share of the present cell behind the profile after some way, as the cell's own coordinate.
+  double coordinate(double way) const {
+    const double covered = clamp_unit(way * speed - crossed);
+    return rising ? covered : 1 - covered;
+  }
+
+  void set_crossed(int lines) {
+    crossed = lines;
+    cell = rising ? origin + lines : origin - 1 - lines;
+  }
+
+  /// Counts the lines crossed after some way, among them one that is just reached or not.
+  void follow(double way, bool including) {
+    int lines = std::max(crossed, static_cast<int>(way * speed));
+    const auto is_behind = [&](int line) { return including ? way_to(line) <= way : way_to(line) < way; };
+    while (is_behind(lines + 1)) ++lines;
+    while (lines > crossed && !is_behind(lines)) --lines;
+    set_crossed(lines);
+  }
+
+  /// Does leaving by that line leave the block's parent, too?
+  bool leaves_parent(int line, int level) const {
+    const int border = rising ? origin + line : origin - line;
+    return (border & ((2 << level) - 1)) == 0 || border == cells;
+  }
+
+  /// Brings a cell index that has left the map back by a whole tile; says whether it had.
+  bool wrap() {
+    if (cell >= 0 && cell < cells) return false;
+    const int tile = cell < 0 ? cells : -cells;
+    cell += tile;
+    origin += tile;
+    return true;
+  }
+};
+
+class Walk {
+ public:
+  Walk(const RayGrid& grid, const ProfileLine& line, double least_slope, std::vector<VisibleStretch>& seen)
+      : grid_(grid),
+        height_(line.height),
+        reach_(line.reach),
+        least_slope_(least_slope),
+        per_diagonal_(1 / (line.step_u - line.step_v)),
+        seen_(seen),
+        u_(line.step_u, line.column, grid.cell_columns),
+        v_(line.step_v, line.row, grid.cell_rows) {}
+
+  double horizon() {
+    const double above = double{grid_.highest} - height_;
+    int level = 0;
+    while (stay_on_map() && way_ < reach_ && !(above <= slope_ * way_)) {
+      const int line_u = u_.exit_line(level);
+      const int line_v = v_.exit_line(level);
+      const bool by_column = u_.way_to(line_u) <= v_.way_to(line_v);
+      const double exit = by_column ? u_.way_to(line_u) : v_.way_to(line_v);
+      const std::int32_t block = grid_.pyramid->index(level, v_.cell, u_.cell);
+      const double highest = double{grid_.pyramid->highest[static_cast<std::size_t>(block)]} - height_;
+      if (!(highest <= slope_ * (slope_ < 0 ? exit : way_))) {
+        if (level > 0) {
+          --level;
+          continue;
+        }
+        look_at_cell({by_column, by_column ? u_.rising : v_.rising}, exit);
+      }
+      const bool climbs = by_column ? u_.leaves_parent(line_u, level) : v_.leaves_parent(line_v, level);
+      if (climbs && level + 1 < grid_.pyramid->levels) ++level;
+      advance(by_column, by_column ? line_u : line_v, exit);
+    }
+    return slope_;
+  }
+
+ private:
+  bool stay_on_map() {
+    const bool left_u = u_.wrap();
+    const bool left_v = v_.wrap();
+    if (!left_u && !left_v) return true;
+    return grid_.tiles && ++wraps_ <= kMostWraps;
+  }
+
+  /// Of a column and a row reached at once, the column counts as crossed first.
+  void advance(bool by_column, int line, double exit) {
+    way_ = exit;
+    entry_ = {by_column, by_column ? !u_.rising : !v_.rising};
+    if (by_column) {
+      u_.set_crossed(line);
+      v_.follow(exit, false);
+    } else {
+      v_.set_crossed(line);
+      u_.follow(exit, true);
+    }
+  }
+
+  double rise_on(const Cell& cell, const Side& side, double way) const {
+    return side.rise(cell, side.of_column ? v_.coordinate(way) : u_.coordinate(way));
+  }
+
+  /// The cell's breakpoints: where it is entered, its diagonal, and where it is left.
+  void look_at_cell(const Side& exit_side, double exit) {
+    const Cell cell(grid_, height_, v_.cell, u_.cell);
+    const bool at_receiver = way_ == 0;
+    // From the vertex, the profile runs into the facet that it also leaves unless the diagonal is in between.
+    const bool same_sense = u_.rising == v_.rising;
+    const bool starts_upper_right =
+        at_receiver ? (same_sense ? exit_side.is_upper_right() : !u_.rising) : entry_.is_upper_right();
+    Breakpoint before{way_, at_receiver ? 0.0 : rise_on(cell, entry_, way_)};
+    if (at_receiver && cell.is_hole(starts_upper_right))
+      before.rise = std::numeric_limits<double>::quiet_NaN();
+    if (!at_receiver) raise_to(before);
+    if (starts_upper_right != exit_side.is_upper_right()) {
+      const int offset = (u_.cell - u_.origin) - (v_.cell - v_.origin);
+      const double way = std::clamp(offset * per_diagonal_, way_, exit);
+      const Breakpoint diagonal{way, cell.rise_on_diagonal(u_.coordinate(way))};
+      look_at_segment(before, diagonal, starts_upper_right);
+      before = diagonal;
+    }
+    look_at_segment(before, {exit, rise_on(cell, exit_side, exit)}, exit_side.is_upper_right());
+  }
+
+  /// If a breakpoint that comes out of a hole is in sight, it is seen down to the slope so far.
+  void raise_to(const Breakpoint& point) {
+    if (point.slope() > slope_) see(point.slope(), point.way);
+  }
+
+  void look_at_segment(const Breakpoint& before, Breakpoint after, bool upper_right) {
+    if (before.way >= reach_) return;
+    if (after.way > reach_) {
+      after.rise =
+          before.rise + (after.rise - before.rise) * ((reach_ - before.way) / (after.way - before.way));
+      after.way = reach_;
+    }
+    if (!(after.slope() > slope_)) return;
+    if (std::isnan(before.rise)) return raise_to(after);
+    if (before.way == 0) return see_own_facet(after.slope(), upper_right);
+    // The segment comes up over the steepest slope so far, or over the tangent plane, where d turns positive.
+    const double least = std::max(slope_, least_slope_);
+    const double d_before = std::min(before.rise - least * before.way, 0.0);
+    const double d_after = after.rise - least * after.way;
+    const double hidden = d_after > 0 ? d_before / (d_before - d_after) : 1.0;
+    see(after.slope(), after.way - 0.5 * (1 - hidden) * (after.way - before.way));
+  }
+
+  void see(double slope, double way) {
+    see(slope, static_cast<float>(u_.coordinate(way)), static_cast<float>(v_.coordinate(way)));
+  }
+
+  void see_own_facet(double slope, bool upper_right) {
+    see(slope, upper_right ? kTwoThirds : kOneThird, upper_right ? kOneThird : kTwoThirds);
+  }
+
+  void see(double slope, float across, float down) {
+    const double least = std::max(slope_, least_slope_);
+    slope_ = slope;
+    if (!(slope > least)) return;
+    const int cell = v_.cell * grid_.width + u_.cell;
+    seen_.push_back({slope, {static_cast<std::uint32_t>(cell), across, down}});
+  }
+
+  const RayGrid& grid_;
+  double height_, reach_, least_slope_, per_diagonal_;
+  std::vector<VisibleStretch>& seen_;
+  Axis u_, v_;
+  Side entry_{};  // by which the present cell was entered
+  double way_ = 0;
+  double slope_ = -std::numeric_limits<double>::infinity();  // the steepest so far
+  int wraps_ = 0;
+};
+
+}  // namespace
+
+double walk_profile(const RayGrid& grid, const ProfileLine& line, double least_slope,
+                    std::vector<VisibleStretch>& stretches) {
+  return Walk(grid, line, least_slope, stretches).horizon();
+}
+
+}  // namespace heightlight

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace heightlight {
+
+/// An elevation above the horizontal, in [−π/2, π/2], as the integrals need it. The default is the zenith.
+struct Elevation {
+  double cosine = 0;
+  double sine = 1;
+};
+
+/// Of a slope, height per way; ±∞ are the zenith and the nadir.
+Elevation elevation_of_slope(double slope);
+
+/// A receiver's unit normal in the vertical plane of one azimuth d: its share along d, and that along z.
+struct SliceNormal {
+  double along = 0;  ///< n_xy · d, in [−1, 1]
+  double up = 1;     ///< n_z, in [0, 1]
+};
+
+/// Slope of the tangent plane along the azimuth: the hemisphere's lower end. ±∞ where the normal is level.
+double tangent_slope(const SliceNormal& normal);
+
+/// ∫ (n·ω) cosθ dθ between two elevations, from ≤ to, neither below the tangent plane: an interval's form
+/// factor but for dφ/π, which normalisation supplies. Additive to rounding.
+double cosine_mass(const SliceNormal& normal, const Elevation& from, const Elevation& to);
+
+/// ∫ cosθ dθ from an elevation to the zenith: solid angle per azimuth, in [0, 2].
+double solid_angle_above(const Elevation& from);
+
+/// ∫ ω (n·ω) cosθ dθ from an elevation to the zenith, ω in components along d and z.
+Eigen::Vector2d bent_mass_above(const SliceNormal& normal, const Elevation& from);
+
+}  // namespace heightlight
