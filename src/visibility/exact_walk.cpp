@@ -19,6 +19,13 @@ Eigen::Vector2d unit_azimuth(double azimuth_rad) {
   return {snapped(std::cos(azimuth_rad)), snapped(std::sin(azimuth_rad))};
 }
 
+/// Of two places in one cell, at a share of the way from the first to the second.
+SurfacePoint place_between(const SurfacePoint& begin, const SurfacePoint& end, double share) {
+  const auto part = static_cast<float>(share);
+  return {begin.cell, begin.across + part * (end.across - begin.across),
+          begin.down + part * (end.down - begin.down)};
+}
+
 }  // namespace
 
 ExactWalker::ExactWalker(const Surface& surface, int azimuths, double reach)
@@ -86,7 +93,9 @@ void ExactWalker::view(int row, int column, SliceView& view) const {
     Elevation from = lowest;
     for (const VisibleStretch& stretch : stretches) {
       const Elevation to = elevation_of_slope(stretch.slope);
-      view.links.push_back({cosine_mass(in_slice, from, to), stretch.place});
+      const double share = mean_share(in_slice, from, to, stretch.begin_way, stretch.end_way);
+      view.links.push_back(
+          {cosine_mass(in_slice, from, to), place_between(stretch.begin, stretch.end, share)});
       from = to;
     }
   }

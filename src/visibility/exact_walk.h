@@ -23,7 +23,8 @@
 
 namespace heightlight {
 
-/// A share of a receiver's cosine-weighted hemisphere and the place that it sees.
+/// A share of a receiver's cosine-weighted hemisphere and the place that stands for what it sees: the mean of
+/// the visible stretch, weighted like the share, so that what is linear over the facet is gathered exactly.
 struct VisibleInterval {
   double weight = 0;  ///< form factor; sky view factor + Σ weights = 1
   SurfacePoint place;

@@ -6,6 +6,8 @@
 namespace heightlight {
 namespace {
 
+constexpr double kMostLines = 1 << 30;
+
 /// A point of the profile; `rise` is NaN in a hole.
 struct Breakpoint {
   double way = 0;
@@ -110,14 +112,18 @@ struct Axis {
     return (border & ((2 << level) - 1)) == 0 || border == cells;
   }
 
-  /// Brings a cell index that has left the map back by a whole tile; says whether it had.
-  bool wrap() {
-    if (cell >= 0 && cell < cells) return false;
+  bool is_on_map() const { return cell >= 0 && cell < cells; }
+
+  /// Brings a cell index that has left the map back by a whole tile.
+  void wrap() {
+    if (is_on_map()) return;
     const int tile = cell < 0 ? cells : -cells;
     cell += tile;
     origin += tile;
-    return true;
   }
+
+  /// Way across kMostWraps tiles, or as far as the counts of lines go.
+  double way_across_tiles() const { return std::min(double{kMostWraps} * cells, kMostLines) / speed; }
 };
 
 class Walk {
@@ -130,7 +136,9 @@ class Walk {
         per_diagonal_(1 / (line.step_u - line.step_v)),
         seen_(seen),
         u_(line.step_u, line.column, grid.cell_columns),
-        v_(line.step_v, line.row, grid.cell_rows) {}
+        v_(line.step_v, line.row, grid.cell_rows) {
+    if (grid.tiles) reach_ = std::min({reach_, u_.way_across_tiles(), v_.way_across_tiles()});
+  }
 
   double horizon() {
     const double above = double{grid_.highest} - height_;
@@ -158,10 +166,11 @@ class Walk {
 
  private:
   bool stay_on_map() {
-    const bool left_u = u_.wrap();
-    const bool left_v = v_.wrap();
-    if (!left_u && !left_v) return true;
-    return grid_.tiles && ++wraps_ <= kMostWraps;
+    if (grid_.tiles) {
+      u_.wrap();
+      v_.wrap();
+    }
+    return u_.is_on_map() && v_.is_on_map();
   }
 
   /// Of a column and a row reached at once, the column counts as crossed first.
@@ -192,7 +201,7 @@ class Walk {
     Breakpoint before{way_, at_receiver ? 0.0 : rise_on(cell, entry_, way_)};
     if (at_receiver && cell.is_hole(starts_upper_right))
       before.rise = std::numeric_limits<double>::quiet_NaN();
-    if (!at_receiver) raise_to(before);
+    if (!at_receiver) look_at_hole_edge(before);
     if (starts_upper_right != exit_side.is_upper_right()) {
       const int offset = (u_.cell - u_.origin) - (v_.cell - v_.origin);
       const double way = std::clamp(offset * per_diagonal_, way_, exit);
@@ -203,9 +212,10 @@ class Walk {
     look_at_segment(before, {exit, rise_on(cell, exit_side, exit)}, exit_side.is_upper_right());
   }
 
-  /// If a breakpoint that comes out of a hole is in sight, it is seen down to the slope so far.
-  void raise_to(const Breakpoint& point) {
-    if (point.slope() > slope_) see(point.slope(), point.way);
+  /// A breakpoint that comes out of a hole is seen, if it is in sight, down to the slope so far.
+  void look_at_hole_edge(const Breakpoint& point) {
+    if (point.slope() > slope_)
+      see(point.slope(), point.way, point.way, place_at(point.way), place_at(point.way));
   }
 
   void look_at_segment(const Breakpoint& before, Breakpoint after, bool upper_right) {
@@ -216,30 +226,31 @@ class Walk {
       after.way = reach_;
     }
     if (!(after.slope() > slope_)) return;
-    if (std::isnan(before.rise)) return raise_to(after);
-    if (before.way == 0) return see_own_facet(after.slope(), upper_right);
+    if (std::isnan(before.rise)) return look_at_hole_edge(after);
+    if (before.way == 0) {
+      const SurfacePoint middle = upper_right ? place(kTwoThirds, kOneThird) : place(kOneThird, kTwoThirds);
+      return see(after.slope(), after.way, after.way, middle, middle);
+    }
     // The segment comes up over the steepest slope so far, or over the tangent plane, where d turns positive.
     const double least = std::max(slope_, least_slope_);
     const double d_before = std::min(before.rise - least * before.way, 0.0);
     const double d_after = after.rise - least * after.way;
     const double hidden = d_after > 0 ? d_before / (d_before - d_after) : 1.0;
-    see(after.slope(), after.way - 0.5 * (1 - hidden) * (after.way - before.way));
+    const double begin = before.way + hidden * (after.way - before.way);
+    see(after.slope(), begin, after.way, place_at(begin), place_at(after.way));
   }
 
-  void see(double slope, double way) {
-    see(slope, static_cast<float>(u_.coordinate(way)), static_cast<float>(v_.coordinate(way)));
+  SurfacePoint place(double across, double down) const {
+    const auto cell = static_cast<std::uint32_t>(v_.cell * grid_.width + u_.cell);
+    return {cell, static_cast<float>(across), static_cast<float>(down)};
   }
 
-  void see_own_facet(double slope, bool upper_right) {
-    see(slope, upper_right ? kTwoThirds : kOneThird, upper_right ? kOneThird : kTwoThirds);
-  }
+  SurfacePoint place_at(double way) const { return place(u_.coordinate(way), v_.coordinate(way)); }
 
-  void see(double slope, float across, float down) {
-    const double least = std::max(slope_, least_slope_);
+  void see(double slope, double begin_way, double end_way, const SurfacePoint& begin,
+           const SurfacePoint& end) {
     slope_ = slope;
-    if (!(slope > least)) return;
-    const int cell = v_.cell * grid_.width + u_.cell;
-    seen_.push_back({slope, {static_cast<std::uint32_t>(cell), across, down}});
+    if (slope > least_slope_) seen_.push_back({slope, begin_way, end_way, begin, end});
   }
 
   const RayGrid& grid_;
@@ -249,7 +260,6 @@ class Walk {
   Side entry_{};  // by which the present cell was entered
   double way_ = 0;
   double slope_ = -std::numeric_limits<double>::infinity();  // the steepest so far
-  int wraps_ = 0;
 };
 
 }  // namespace

@@ -37,17 +37,21 @@ struct ProfileLine {
   double reach = std::numeric_limits<double>::infinity();  ///< the profile ends after this way, world units
 };
 
-/// A visible stretch of the profile. It is seen from the slope where the stretch before ends, the first from
-/// the least slope asked for.
+/// A visible stretch of the profile, straight and inside one facet; or one place that stands for what is
+/// seen, with equal ends. It is seen from the slope where the stretch before ends, the first from the least
+/// slope asked for.
 struct VisibleStretch {
-  double slope = 0;    ///< up to which it is seen
-  SurfacePoint place;  ///< its middle (in way)
+  double slope = 0;  ///< up to which it is seen: that of its end, unless it is the receiver's own facet
+  double begin_way = 0;
+  double end_way = 0;
+  SurfacePoint begin;
+  SurfacePoint end;
 };
 
 /// Walks along the line and returns the horizon's slope (height per world unit of way), −∞ where there is no
 /// surface. What is seen above `least_slope` is appended to `stretches` in rising order; nothing is where the
-/// horizon is lower. Where the map tiles the walk ends after kMostWraps tiles: what it leaves out lies within
-/// relief / way of the horizontal.
+/// horizon is lower. Where the map tiles the walk ends after as many columns or rows as kMostWraps tiles
+/// have: what it leaves out lies within relief / way of the horizontal.
 double walk_profile(const RayGrid& grid, const ProfileLine& line, double least_slope,
                     std::vector<VisibleStretch>& stretches);
 

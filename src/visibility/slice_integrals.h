@@ -26,6 +26,13 @@ double tangent_slope(const SliceNormal& normal);
 /// factor but for dφ/π, which normalisation supplies. Additive to rounding.
 double cosine_mass(const SliceNormal& normal, const Elevation& from, const Elevation& to);
 
+/// Where on a straight stretch of the profile, as a share of it in [0, 1] from its near end to its far one,
+/// its light comes from: the mean weighted as in `cosine_mass`. The near end is seen at `from` after
+/// `from_way`, the far one at `to` after `to_way`, 0 < from_way ≤ to_way. What is linear along the stretch is
+/// thus gathered exactly but for a quadrature of three nodes.
+double mean_share(const SliceNormal& normal, const Elevation& from, const Elevation& to, double from_way,
+                  double to_way);
+
 /// ∫ cosθ dθ from an elevation to the zenith: solid angle per azimuth, in [0, 2].
 double solid_angle_above(const Elevation& from);
 
