@@ -59,8 +59,9 @@ TEST_CASE("what the exact walk sees sums to 1 with the sky", "[visibility][exact
 TEST_CASE("the exact walk finds a flat map open to the last bit", "[visibility][exact]") {
   const Boundary boundary = GENERATE(Boundary::tile, Boundary::open);
   const Surface flat = build_surface(make_map(9, 6, boundary, [](int, int) { return 0.7; }));
+  const ExactWalker walker(flat, 12);
   for (int texel = 0; texel < 9 * 6; ++texel) {
-    const SliceView view = view_at(ExactWalker(flat, 12), texel / 9, texel % 9);
+    const SliceView view = view_at(walker, texel / 9, texel % 9);
     CHECK(view.sky_view_factor == 1);
     CHECK(view.ambient_occlusion == 1);
     CHECK(view.links.empty());
@@ -72,22 +73,23 @@ TEST_CASE("the exact walk finds an open tilted plane open, also below the horizo
           "[visibility][exact]") {
   const Surface plane = build_surface(
       make_map(16, 11, Boundary::open, [](int row, int column) { return 0.25 * column + 0.125 * row; }));
+  const ExactWalker walker(plane, 64);
   for (int texel = 0; texel < 16 * 11; ++texel) {
-    const SliceView view = view_at(ExactWalker(plane, 64), texel / 16, texel % 16);
+    const SliceView view = view_at(walker, texel / 16, texel % 16);
     // The normal is a float: it leans by up to 10⁻⁷ over the plane, and the cosine mass goes with the square.
     CHECK(view.sky_view_factor == Approx(1).margin(1e-12));
     CHECK(view.ambient_occlusion == Approx(1).margin(1e-7));
   }
-  const SliceView inside = view_at(ExactWalker(plane, 64), 5, 8);
+  const SliceView inside = view_at(walker, 5, 8);
   CHECK((inside.bent_normal - plane.normal(5, 8).cast<double>()).norm() < 1e-6);
   // Seen from the middle, the plane itself is the horizon; at the outer corners there is no surface on one
   // side.
   for (int k = 0; k < 64; ++k) {
-    const double azimuth = ExactWalker(plane, 64).azimuth_rad(k);
+    const double azimuth = walker.azimuth_rad(k);
     const double slope = 16 * (0.25 * std::cos(azimuth) - 0.125 * std::sin(azimuth));
     CHECK(inside.horizon_rad[static_cast<std::size_t>(k)] == Approx(std::atan(slope)).margin(1e-12));
   }
-  CHECK(ExactWalker(plane, 64).horizon_rad(0, 15, kPi / 4) == -kPi / 2);
+  CHECK(walker.horizon_rad(0, 15, kPi / 4) == -kPi / 2);
 }
 
 /// A trench along the rows' direction, floor at columns 24 … 40 of 64 and `depth` (texels) below the rest.

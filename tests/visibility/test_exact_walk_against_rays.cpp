@@ -104,7 +104,7 @@ TEST_CASE("holes and their edges are for the walk what they are for rays", "[vis
   // Every cell is a cliff or a hole: the outline jumps from azimuth to azimuth, so that more of them are
   // needed.
   const Boundary boundary = GENERATE(Boundary::tile, Boundary::open);
-  check_against_rays(build_surface(make_rough_map(64, 64, boundary, 0.1, 0.3, 5)), 4096);
+  check_against_rays(build_surface(make_rough_map(64, 64, boundary, 0.1, 0.3, 5)), 2048);
 }
 
 /// Every `step`-th sample of a map along both axes.
