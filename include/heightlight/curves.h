@@ -80,6 +80,9 @@ struct ReliefCurves {
   BounceCurves curves;      ///< over α
 };
 
+/// How the study walks: fine enough that the error does not show among the curves.
+const HorizonPlan& study_plan();
+
 /// The notes' study of the height amplitude (file 004): curves over α of the map with its heights scaled so
 /// that its relief is each share of its width (spacing × columns). Runs on a copy of at most `largest_side`
 /// texels a side, which keeps the map's extent and boundary, since only the curves' shape is asked: every
@@ -87,7 +90,6 @@ struct ReliefCurves {
 /// UsageError for a share that is not positive and finite, largest_side < 1 or bounces < 0, and what
 /// build_form_factors and CurveBuilder throw.
 std::vector<ReliefCurves> study_reliefs(const Heightmap& map, const std::vector<double>& relief_shares,
-                                        int largest_side, const FormFactorOptions& options, int bounces,
-                                        int bins);
+                                        int largest_side, int bounces, int bins, bool quiet);
 
 }  // namespace heightlight

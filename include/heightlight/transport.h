@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -16,11 +17,38 @@ namespace heightlight {
 /// missing.
 using TexelVector = Eigen::VectorXd;
 
-/// What a receiver sees along one ray: a place on the surface, and through `ray` the form factor. The place
-/// lies in the cell whose upper left vertex is (row, column), at (across, down) / 255 of it.
+/// The operator F that carries irradiance from bounce to bounce, and the sky's share of every receiver:
+/// sky_view_factor_i + Σ_j F_ij = 1. Whatever finds visibility ends in one of these; bounces don't know
+/// which.
+struct Transport {
+  Map ambient_occlusion;  ///< α: share of the hemisphere's solid angle that sees the sky, [0, 1]
+  Map sky_view_factor;    ///< A: the same, cosine weighted; NaN where the sample is missing, in both
+  TexelVector direct;     ///< E₀/π: A as F complements it to 1, 0 where missing
+
+  Transport() = default;
+  Transport(Transport&&) = default;
+  Transport& operator=(Transport&&) = default;
+  virtual ~Transport() = default;
+
+  /// F x: what each receiver gets when the surface's radiosity / π is x, finite everywhere. 0 where missing.
+  virtual TexelVector gather(const TexelVector& x) const = 0;
+  /// Relative residual to which systems with F can be solved.
+  virtual double solver_tolerance() const = 0;
+  /// Form factors that are stored, and the bytes that they take.
+  virtual std::uint64_t link_count() const = 0;
+  virtual std::uint64_t bytes() const = 0;
+};
+
+inline TexelVector gather(const Transport& transport, const TexelVector& x) { return transport.gather(x); }
+
+/// Largest |sky + Σ F − 1| over the receivers: what a gather of ones leaves.
+double row_sum_error(const Transport& transport);
+
+/// What a receiver sees in one direction: a place on the surface, and through `weight` the form factor. The
+/// place lies in the cell whose upper left vertex is (row, column), at (across, down) / 255 of it.
 struct Link {
   std::uint32_t cell = 0;  ///< row × (width + 1) + column: an index into values padded by a column and a row
-  std::uint16_t ray = 0;
+  std::uint16_t weight = 0;  ///< index into a table of weights, or of the row's own
   std::uint8_t across = 0;
   std::uint8_t down = 0;
 };
@@ -29,24 +57,23 @@ static_assert(sizeof(Link) == 8);
 /// The links of one row of receivers; receiver j's are links[begin[j]] … links[begin[j + 1]].
 struct LinkRow {
   std::vector<std::uint64_t> begin;
-  std::vector<std::uint8_t> weight_table;  ///< per receiver: which of FormFactors::ray_weights its rays use
+  std::vector<std::uint8_t> weight_table;  ///< per receiver: which of FormFactors::ray_weights its links use
   std::vector<Link> links;
+  std::vector<double> weights;  ///< per link, where form factors come from no table
 };
 
-/// The operator F that carries irradiance from bounce to bounce, and the sky's share of every receiver:
-/// sky_view_factor_i + Σ_j F_ij = 1.
-struct FormFactors {
+/// Stored links, each to a place on a facet: those of rays, or of exact horizon walks.
+struct FormFactors : Transport {
   int width = 0;
   int height = 0;
-  Map ambient_occlusion;  ///< α: share of the hemisphere's solid angle that sees the sky, [0, 1]
-  Map sky_view_factor;    ///< A: the same, cosine weighted; NaN where the sample is missing, in both
-  TexelVector
-      direct;  ///< E₀/π: A in full precision, 0 where missing; 1 − Σ_j F_ij to the last bit that counts
-  std::vector<std::vector<double>> ray_weights;  ///< form factor of each ray, per table
+  std::vector<std::vector<double>>
+      ray_weights;  ///< form factor of each ray, per table; empty for exact walks
   std::vector<LinkRow> rows;
 
-  std::uint64_t link_count() const;
-  std::uint64_t bytes() const;
+  TexelVector gather(const TexelVector& x) const override;
+  double solver_tolerance() const override { return 1e-8; }
+  std::uint64_t link_count() const override;
+  std::uint64_t bytes() const override;
 };
 
 /// What finding the form factors may use, and whom to tell how far it is.
@@ -61,20 +88,64 @@ struct FormFactorOptions {
 /// receivers first. Throws Error when they pass `memory_limit`, UsageError for a bad number of rays.
 FormFactors build_form_factors(const Surface& surface, const FormFactorOptions& options);
 
-/// F x: what each receiver gets when the surface's radiosity / π is x. Rows without links give 0.
-TexelVector gather(const FormFactors& form_factors, const TexelVector& x);
+/// Walks exactly along `azimuths` azimuths from every receiver (2 … 65536, even), and stores what they see.
+/// `options.rays` is not used. Throws as build_form_factors does.
+FormFactors build_exact_form_factors(const Surface& surface, int azimuths, const FormFactorOptions& options);
 
-/// Largest |sky_view_factor + Σ F − 1| over the receivers, the row sums made from the stored links.
-double row_sum_error(const FormFactors& form_factors);
+/// How horizon walks find the sky's shares, and the links. Links bear fewer azimuths: they tell only how what
+/// is seen of the surface is divided up, not how much of it there is.
+struct HorizonPlan {
+  WalkOptions sky;
+  WalkOptions links;
+  double sky_error = 0;   ///< RMSE of A expected, from the pilot; 0 where there was none
+  double link_error = 0;  ///< RMSE of the total at ρ = 0.8 expected from the links alone
+};
 
-/// The solution x of x = source + F (ρ x), to a residual of 1e-8 of the source's norm, by BiCGSTAB; `guess`
-/// is where it starts. `albedo` is ρ per texel, in [0, 1].
+/// What walking may use.
+struct HorizonOptions {
+  std::uint64_t memory_limit =
+      ~0ULL;          ///< bytes for links; tiles for which none is left walk again at each gather
+  bool quiet = true;  ///< no progress bar
+};
+
+/// The operator by horizon walks as planned. `surface` must outlive it. Its gathers are not to be called from
+/// two threads at once. Throws UsageError for a number of azimuths outside its range.
+std::unique_ptr<Transport> build_horizon_transport(const Surface& surface, const HorizonPlan& plan,
+                                                   const HorizonOptions& options);
+
+struct PlannedTransport {
+  HorizonPlan plan;
+  std::unique_ptr<Transport> transport;
+};
+
+/// Chooses a plan whose RMSE of A, and of the total irradiance at albedos up to 0.8, is about `error` > 0, by
+/// trying ways of walking on a sample of receivers against exact walks; then builds. `azimuths` > 0 fixes
+/// those of the sky. `seed` picks the sample.
+PlannedTransport plan_horizon_transport(const Surface& surface, double error, int azimuths,
+                                        std::uint64_t seed, const HorizonOptions& options);
+
+/// What a finished solution errs by, found on a few hundred receivers by exact walks (which share no code
+/// with the fast ones): A against their sky, the total against one exact gather of the same light. What the
+/// gather finds wrong on average is taken to grow by 1/(1 − ρ (1 − A)) over the bounces.
+struct HorizonCheck {
+  int receivers = 0;
+  int azimuths = 0;
+  double sky_rmse = 0;    ///< of A
+  double total_rmse = 0;  ///< of E/π
+};
+
+/// `total` is E/π at the albedo per texel. `seed` picks the receivers.
+HorizonCheck check_by_exact_walks(const Surface& surface, const Transport& transport,
+                                  const TexelVector& total, const TexelVector& albedo, std::uint64_t seed);
+
+/// The solution x of x = source + F (ρ x), to a residual of Transport::solver_tolerance of the source's norm,
+/// by BiCGSTAB; `guess` is where it starts. `albedo` is ρ per texel, in [0, 1].
 struct Equilibrium {
   TexelVector irradiance;
   int iterations = 0;
   double residual = 0;  ///< |source + F ρ x − x| / |source|
 };
-Equilibrium solve_equilibrium(const FormFactors& form_factors, const TexelVector& source,
+Equilibrium solve_equilibrium(const Transport& transport, const TexelVector& source,
                               const TexelVector& albedo, const TexelVector& guess, bool quiet = true);
 
 /// Bounces at ρ = 1, from which those at any constant albedo follow: E_b(ρ) = ρ^b E_b. All values are E/π.
@@ -82,19 +153,40 @@ struct BounceSeries {
   int bounces = 0;                    ///< K: the last one
   TexelVector sum;                    ///< E₀ + … + E_K
   std::vector<TexelVector> weighted;  ///< Σ_{b ≤ K} ρ^b E_b, per albedo asked for
+  TexelVector last;                   ///< E_K
   TexelVector next;                   ///< E_{K+1} = F E_K
   double spectral_radius = 0;  ///< of F, by the Rayleigh quotient of E_K: a lower bound that E_K makes tight
 };
 
 /// Computes E_0 … E_K and hands each to `visit(b, E_b)` as it is made. Texels weigh 1/n_z, their area, in the
 /// Rayleigh quotient, under which F is symmetric.
-BounceSeries bounce(const FormFactors& form_factors, const Surface& surface, int bounces,
+BounceSeries bounce(const Transport& transport, const Surface& surface, int bounces,
                     const std::vector<double>& albedos,
                     const std::function<void(int, const TexelVector&)>& visit, bool quiet);
 
 /// What all bounces after the K-th bring at constant albedo ρ: ρ^{K+1} t, with t = E_{K+1} + ρ F t.
-Equilibrium solve_tail(const FormFactors& form_factors, const BounceSeries& series, double albedo,
+Equilibrium solve_tail(const Transport& transport, const BounceSeries& series, double albedo,
                        bool quiet = true);
+
+/// The same without solving, from conservation. At ρ = 1 all bounces sum to 1, so that T = 1 − (E₀ + … + E_K)
+/// is left. Taking the bounces from the K-th on to fall by one ratio q per texel, which E_K and T fix (E_K
+/// q/(1 − q) = T), what is left at ρ is
+///     ρ^{K+1} T (1 − q)/(1 − ρ q),   q = T/(T + E_K).
+/// Exact at ρ = 1 and, as a share of the total, ever better the smaller ρ^{K+1} T is. `last` is E_K, `sum` E₀
+/// + … + E_K. 0 where missing.
+TexelVector conserve_tail(const Transport& transport, const TexelVector& sum, const TexelVector& last,
+                          int bounces, double albedo);
+
+/// Total irradiance of all bounces at constant albedos, without keeping the bounces apart.
+struct TotalIrradiance {
+  std::vector<TexelVector> totals;  ///< E/π, per albedo
+  int bounces = 0;                  ///< gathered, before the tail was taken from conservation
+  double change = 0;  ///< RMS over the receivers of what the last of them changed, the most of any albedo
+};
+
+/// Bounces until one more changes no total by more than `tolerance` RMS, and 64 at most.
+TotalIrradiance solve_totals(const Transport& transport, const std::vector<double>& albedos, double tolerance,
+                             bool quiet = true);
 
 /// Values as a map, NaN where the surface has no receiver.
 Map to_map(const TexelVector& values, const Surface& surface);

@@ -16,6 +16,17 @@ struct RayOptions {
 /// Throws UsageError, naming `--rays`, unless the number of rays is in its range.
 void check_ray_options(const RayOptions& options);
 
+/// How a horizon walk looks around; each is a bargain between time and error.
+struct WalkOptions {
+  int azimuths = 32;  ///< K, even, 2 … 65536; φ_k = 2π (k + ¼) / K in the world, from x to y
+  int fineness = 16;  ///< ν, 8, 16, 32 …: samples per octave of distance; all breakpoints up to ν/4 texels
+  float peak_share =
+      0.3F;  ///< of a block's highest sample in the height that stands for it; the rest is its mean
+};
+
+/// Throws UsageError, naming `--azimuths`, unless the number is even and in its range.
+void check_azimuths(int azimuths);
+
 /// A place on the surface: a point of the cell whose upper left vertex is `cell` (index into the height
 /// image). `across` and `down` are its coordinates inside the cell, in [0, 1]; across ≥ down is the upper
 /// right triangle.

@@ -39,7 +39,7 @@ class StopWatch {
 };
 
 void check_options(const SimulateOptions& options) {
-  check_ray_options({options.rays, options.run.seed});
+  check_visibility_options(options.visibility, options.run.seed);
   if (options.bounces < 1 || options.bounces > 1000) {
     throw UsageError("--bounces " + std::to_string(options.bounces) + ": must be from 1 to 1000");
   }
@@ -64,12 +64,11 @@ void refuse_to_replace(const std::filesystem::path& input, const std::filesystem
 
 /// Memory for the links: what the maps and vectors of the other steps leave of the limit.
 std::uint64_t memory_for_links(const SimulateOptions& options, const Heightmap& map) {
-  // Heights, normals, pyramid, AO maps, some 20 vectors of the solver, the bins' order.
-  constexpr std::uint64_t kBytesPerTexel = 320;
-  const std::uint64_t texels = map.height.size();
-  const std::uint64_t studied = std::min<std::uint64_t>(texels, std::uint64_t{kStudySide} * kStudySide);
-  const std::uint64_t study = studied * static_cast<std::uint64_t>(options.rays) * sizeof(Link);
-  const std::uint64_t needed = texels * kBytesPerTexel + study;
+  // Heights, normals, pyramids, AO and light maps, bounces and their sums, previews, the bins; with rays or
+  // exact slices some 10 vectors of the solver, too.
+  const bool solves = options.visibility.by_rays() || options.visibility.exact();
+  const std::uint64_t bytes_per_texel = solves ? 320 : 200;
+  const std::uint64_t needed = map.height.size() * bytes_per_texel;
   if (needed >= options.run.memory) {
     throw Error(options.map.path.string() + ": simulating " + std::to_string(map.height.width) + " × " +
                 std::to_string(map.height.height) + " texels needs " + format_byte_size(needed) +
@@ -88,13 +87,13 @@ void write_map(StagedFolder& folder, const std::string& name, const Map& map, co
 /// The bounces on their way: into curves, previews and, where asked, files.
 class BounceSink {
  public:
-  BounceSink(const FormFactors& form_factors, const Surface& surface, const SimulateOptions& options,
+  BounceSink(const Transport& transport, const Surface& surface, const SimulateOptions& options,
              StagedFolder& folder)
       : surface_(surface),
         options_(options),
         folder_(folder),
-        alpha_(form_factors.ambient_occlusion, AoKind::ambient_occlusion, options.bins),
-        sky_(form_factors.sky_view_factor, AoKind::sky_view_factor, options.bins) {}
+        alpha_(transport.ambient_occlusion, AoKind::ambient_occlusion, options.bins),
+        sky_(transport.sky_view_factor, AoKind::sky_view_factor, options.bins) {}
 
   void take(int b, const TexelVector& irradiance) {
     StopWatch watch;
@@ -127,33 +126,41 @@ class BounceSink {
   double seconds_ = 0;
 };
 
+/// What is left after the last bounce, at constant albedo: solved for where links are exact, from
+/// conservation where they are walked.
+Equilibrium find_tail(const Transport& transport, const BounceSeries& series, double albedo,
+                      bool by_conservation, bool quiet) {
+  if (!by_conservation) return solve_tail(transport, series, albedo, quiet);
+  return {conserve_tail(transport, series.sum, series.last, series.bounces, albedo), 0, 0};
+}
+
 /// Total irradiance of all bounces, one vector per channel of the albedo.
-std::vector<TexelVector> solve_totals(const FormFactors& form_factors, const BounceSeries& series,
-                                      const Albedo& albedo, EnergyCheck& energy, bool quiet) {
+std::vector<TexelVector> find_totals(const Transport& transport, const BounceSeries& series,
+                                     const Albedo& albedo, bool by_conservation, EnergyCheck& energy,
+                                     bool quiet) {
   std::vector<TexelVector> totals;
   const auto note = [&energy](const Equilibrium& solved) {
     energy.solver_residual = std::max(energy.solver_residual, solved.residual);
     energy.solver_iterations = std::max(energy.solver_iterations, solved.iterations);
   };
   for (std::size_t channel = 0; channel < albedo.constant.size(); ++channel) {
-    const Equilibrium tail = solve_tail(form_factors, series, albedo.constant[channel], quiet);
+    const Equilibrium tail = find_tail(transport, series, albedo.constant[channel], by_conservation, quiet);
     note(tail);
     totals.push_back(series.weighted[channel] + tail.irradiance);
   }
   for (const TexelVector& reflectance : albedo.varying) {
     const Equilibrium all =
-        solve_equilibrium(form_factors, form_factors.direct, reflectance, form_factors.direct, quiet);
+        solve_equilibrium(transport, transport.direct, reflectance, transport.direct, quiet);
     note(all);
     totals.push_back(all.irradiance);
   }
   return totals;
 }
 
-/// Compares E₀ + … + E_K + tail with 1, the tail having been solved for, not taken from that sum.
-EnergyCheck check_energy(const FormFactors& form_factors, const BounceSeries& series,
-                         const Equilibrium& tail) {
-  EnergyCheck energy;
-  energy.row_sum_max_error = row_sum_error(form_factors);
+/// Compares E₀ + … + E_K + tail with 1. (A tail from conservation is taken from that sum; the rows are
+/// checked then.)
+void check_energy(const Transport& transport, const BounceSeries& series, const Equilibrium& tail,
+                  EnergyCheck& energy) {
   energy.spectral_radius = series.spectral_radius;
   energy.solver_residual = tail.residual;
   energy.solver_iterations = tail.iterations;
@@ -161,7 +168,7 @@ EnergyCheck check_energy(const FormFactors& form_factors, const BounceSeries& se
   double tail_sum = 0;
   std::size_t receivers = 0;
   for (Eigen::Index i = 0; i < series.sum.size(); ++i) {
-    if (std::isnan(form_factors.sky_view_factor.values[static_cast<std::size_t>(i)])) continue;
+    if (std::isnan(transport.sky_view_factor.values[static_cast<std::size_t>(i)])) continue;
     const double total = series.sum[i] + tail.irradiance[i];
     energy.sum_max_error = std::max(energy.sum_max_error, std::fabs(total - 1));
     energy.tail_max = std::max(energy.tail_max, tail.irradiance[i]);
@@ -171,7 +178,22 @@ EnergyCheck check_energy(const FormFactors& form_factors, const BounceSeries& se
   }
   energy.mean_total_over_pi = sum / static_cast<double>(receivers);
   energy.tail_mean = tail_sum / static_cast<double>(receivers);
-  return energy;
+}
+
+/// The error that the summary reports: of rays against more rays, of horizon walks against exact ones.
+void estimate_errors(const SimulateOptions& options, const Surface& surface, const Transport& transport,
+                     const TexelVector& total, const Albedo& albedo, Simulation& simulation) {
+  if (options.visibility.by_rays()) {
+    const double rmse = estimate_ray_rmse(surface, {options.visibility.ray_count(), options.run.seed});
+    if (!std::isnan(rmse)) simulation.rmse_estimate = rmse;
+    return;
+  }
+  const TexelVector reflectance =
+      albedo.varying.empty() ? TexelVector::Constant(total.size(), albedo.constant[0]) : albedo.varying[0];
+  const HorizonCheck check = check_by_exact_walks(surface, transport, total, reflectance, options.run.seed);
+  if (check.receivers == 0) return;
+  simulation.check = check;
+  simulation.rmse_estimate = check.sky_rmse;
 }
 
 void write_totals(StagedFolder& folder, const std::vector<Map>& totals) {
@@ -183,11 +205,11 @@ void write_totals(StagedFolder& folder, const std::vector<Map>& totals) {
                     Attributes{{"ImageDescription", "E / pi of all bounces, at the albedo given"}});
 }
 
-void write_pictures(StagedFolder& folder, const Surface& surface, const FormFactors& form_factors,
+void write_pictures(StagedFolder& folder, const Surface& surface, const Transport& transport,
                     const std::vector<Map>& first_bounces, const std::vector<Map>& totals) {
   write_png(folder.file("height.png"), height_picture(surface));
-  write_png(folder.file("ambient_occlusion.png"), grey_picture(form_factors.ambient_occlusion));
-  write_png(folder.file("sky_view_factor.png"), grey_picture(form_factors.sky_view_factor));
+  write_png(folder.file("ambient_occlusion.png"), grey_picture(transport.ambient_occlusion));
+  write_png(folder.file("sky_view_factor.png"), grey_picture(transport.sky_view_factor));
   write_png(folder.file("irradiance_total.png"), colour_picture(totals));
   write_png(folder.file("bounces.png"), bounce_strip(first_bounces));
 }
@@ -198,8 +220,14 @@ void report(const SimulateOptions& options, const Simulation& simulation, const 
   std::printf("%s: %d x %d texels, %llu links (%s) in %.1f s\n", options.map.path.c_str(), surface.width(),
               surface.height(), static_cast<unsigned long long>(simulation.links),
               format_byte_size(simulation.link_bytes).c_str(), s.total);
-  std::printf("visibility %.1f s, bounces %.1f s, curves %.1f s; RMSE of A about %.2g\n", s.visibility,
-              s.bounces, s.curves, simulation.rmse_estimate.value_or(0));
+  std::printf("visibility %.1f s, bounces %.1f s, curves %.1f s, output %.1f s\n", s.visibility, s.bounces,
+              s.curves, s.output);
+  if (simulation.check) {
+    std::printf("RMSE against exact walks: %.2g of the sky view factor, %.2g of the total\n",
+                simulation.check->sky_rmse, simulation.check->total_rmse);
+  } else if (simulation.rmse_estimate) {
+    std::printf("RMSE of the sky view factor about %.2g\n", *simulation.rmse_estimate);
+  }
   std::printf(
       "energy: sum of all bounces is 1 within %.1g; after %d of them %.2g is left on average (%.2g at "
       "most)\n",
@@ -226,47 +254,46 @@ void simulate(SimulateOptions& options) {
   StagedFolder folder(options.folder);
   seconds.load = watch.lap();
 
-  const RayOptions rays{options.rays, options.run.seed};
-  const FormFactors form_factors =
-      build_form_factors(surface, {rays, link_memory, options.run.quiet, options.map.path.string()});
-  const double rmse = estimate_ray_rmse(surface, rays);
-  if (!std::isnan(rmse)) simulation.rmse_estimate = rmse;
+  FoundVisibility found =
+      find_visibility(surface, options.visibility, options.run, options.map.path.string(), link_memory);
+  const Transport& transport = *found.transport;
+  simulation.plan = found.plan;
   seconds.visibility = watch.lap();
-  simulation.links = form_factors.link_count();
-  simulation.link_bytes = form_factors.bytes();
+  simulation.links = transport.link_count();
+  simulation.link_bytes = transport.bytes();
+  simulation.energy.row_sum_max_error = row_sum_error(transport);
   seconds.transport = watch.lap();
 
-  BounceSink sink(form_factors, surface, options, folder);
+  BounceSink sink(transport, surface, options, folder);
   const auto visit = [&sink](int b, const TexelVector& irradiance) { sink.take(b, irradiance); };
   const BounceSeries series =
-      bounce(form_factors, surface, options.bounces, albedo.constant, visit, options.run.quiet);
-  const Equilibrium tail = solve_tail(form_factors, series, 1, options.run.quiet);
-  simulation.energy = check_energy(form_factors, series, tail);
+      bounce(transport, surface, options.bounces, albedo.constant, visit, options.run.quiet);
+  const bool by_conservation = found.plan.has_value();
+  const Equilibrium tail = find_tail(transport, series, 1, by_conservation, options.run.quiet);
+  check_energy(transport, series, tail, simulation.energy);
+  const std::vector<TexelVector> irradiance =
+      find_totals(transport, series, albedo, by_conservation, simulation.energy, options.run.quiet);
   std::vector<Map> totals;
-  for (const TexelVector& values :
-       solve_totals(form_factors, series, albedo, simulation.energy, options.run.quiet)) {
-    totals.push_back(to_map(values, surface));
-  }
+  for (const TexelVector& values : irradiance) totals.push_back(to_map(values, surface));
   seconds.bounces = watch.lap() - sink.seconds();
+  estimate_errors(options, surface, transport, irradiance[0], albedo, simulation);
+  seconds.check = watch.lap();
 
   sink.take_tail(tail.irradiance);
   const std::vector<BounceCurves> curves = sink.curves();
   write_curves_csv(folder.file("curves.csv"), curves);
-  FormFactorOptions study_options;
-  study_options.rays = rays;
-  study_options.quiet = options.run.quiet;
   const std::vector<ReliefCurves> study =
-      study_reliefs(surface.map, kStudiedReliefs, kStudySide, study_options, 1, kStudyBins);
+      study_reliefs(surface.map, kStudiedReliefs, kStudySide, 1, kStudyBins, options.run.quiet);
+  seconds.curves = watch.lap() + sink.seconds();
   plot_curves(folder.file("curves.svg"), folder.file("curves.png"),
               {curves[0], curves[1], study, options.map.path.filename().string()});
-  seconds.curves = watch.lap() + sink.seconds();
-
-  write_map(folder, "ambient_occlusion.exr", form_factors.ambient_occlusion,
+  write_map(folder, "ambient_occlusion.exr", transport.ambient_occlusion,
             "ambient occlusion: share of the hemisphere's solid angle that sees the sky");
-  write_map(folder, "sky_view_factor.exr", form_factors.sky_view_factor,
+  write_map(folder, "sky_view_factor.exr", transport.sky_view_factor,
             "sky view factor: cosine-weighted share of the hemisphere that sees the sky");
   write_totals(folder, totals);
-  write_pictures(folder, surface, form_factors, sink.first(), totals);
+  write_pictures(folder, surface, transport, sink.first(), totals);
+  seconds.output = watch.lap();
   seconds.total = total.lap();
   write_summary(folder.file("summary.json"), options, surface, albedo, simulation);
   folder.commit();
@@ -281,7 +308,7 @@ void add_simulate_command(CLI::App& app) {
   auto options = std::make_shared<SimulateOptions>();
   add_map_options(*command, options->map);
   command->add_option("-o,--output", options->folder, "folder for the results")->type_name("DIR")->required();
-  command->add_option("--rays", options->rays, "rays per texel, 1 to 65536 (300)");
+  add_visibility_options(*command, options->visibility);
   command->add_option("--bounces", options->bounces, "bounces to keep apart; the rest is the tail (20)");
   command
       ->add_option("--albedo", options->albedo,

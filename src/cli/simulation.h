@@ -7,6 +7,7 @@
 
 #include "cli/albedo.h"
 #include "cli/map_options.h"
+#include "cli/visibility_options.h"
 #include "heightlight/curves.h"
 #include "heightlight/transport.h"
 #include "io/staged_output.h"
@@ -18,7 +19,7 @@ struct SimulateOptions {
   MapOptions map;
   RunOptions run;
   std::filesystem::path folder;
-  int rays = 300;  ///< so that each of 100 bins holds three of the values that α can take
+  VisibilityOptions visibility;
   int bounces = 20;
   int bins = 100;
   std::string albedo = "0.5";
@@ -31,7 +32,9 @@ struct StepTimes {
   double visibility = 0;
   double transport = 0;  ///< setting up the operator: for stored links, counting and checking them
   double bounces = 0;
-  double curves = 0;
+  double check = 0;   ///< estimating the errors
+  double curves = 0;  ///< binning, the curves' table, the study of the relief
+  double output = 0;  ///< maps, plots and pictures
   double total = 0;
 };
 
@@ -50,7 +53,9 @@ struct EnergyCheck {
 /// Everything that the summary reports.
 struct Simulation {
   SourceFacts facts;
+  std::optional<HorizonPlan> plan;      ///< of fast horizon walks
   std::optional<double> rmse_estimate;  ///< of A; absent where no receiver is
+  std::optional<HorizonCheck> check;    ///< of horizon walks
   std::uint64_t links = 0;
   std::uint64_t link_bytes = 0;
   EnergyCheck energy;

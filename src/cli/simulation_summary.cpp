@@ -33,9 +33,41 @@ Json describe_energy(const EnergyCheck& energy) {
           {"solver_iterations", energy.solver_iterations}};
 }
 
+/// The walks of a plan, and what the pilot expected of each part.
+void add_plan(const HorizonPlan& plan, Json& visibility) {
+  visibility["azimuths"] = plan.sky.azimuths;
+  visibility["fineness"] = plan.sky.fineness;
+  visibility["peak_share"] = plan.sky.peak_share;
+  visibility["links"] = {{"azimuths", plan.links.azimuths}, {"fineness", plan.links.fineness}};
+  visibility["expected_rmse"] = {{"sky_view_factor", plan.sky_error}, {"total_from_links", plan.link_error}};
+}
+
+Json describe_visibility(const SimulateOptions& options, const Simulation& simulation) {
+  const VisibilityOptions& chosen = options.visibility;
+  Json visibility = {{"method", chosen.by_rays() ? "rays" : "horizon"},
+                     {"azimuths", nullptr},
+                     {"rays", nullptr},
+                     {"seed", options.run.seed},
+                     {"rmse_estimate", nullptr}};
+  if (chosen.by_rays()) visibility["rays"] = chosen.ray_count();
+  if (chosen.exact()) visibility["azimuths"] = chosen.exact_azimuths();
+  if (!chosen.by_rays()) visibility["error_wanted"] = chosen.error;
+  if (simulation.plan) add_plan(*simulation.plan, visibility);
+  if (simulation.rmse_estimate) visibility["rmse_estimate"] = *simulation.rmse_estimate;
+  if (simulation.check) {
+    visibility["checked"] = {{"receivers", simulation.check->receivers},
+                             {"azimuths", simulation.check->azimuths},
+                             {"sky_view_factor_rmse", simulation.check->sky_rmse},
+                             {"total_rmse", simulation.check->total_rmse}};
+  }
+  return visibility;
+}
+
 Json describe_times(const StepTimes& seconds) {
-  return {{"load", seconds.load},       {"visibility", seconds.visibility}, {"transport", seconds.transport},
-          {"bounces", seconds.bounces}, {"curves", seconds.curves},         {"total", seconds.total}};
+  return {{"load", seconds.load},           {"visibility", seconds.visibility},
+          {"transport", seconds.transport}, {"bounces", seconds.bounces},
+          {"check", seconds.check},         {"curves", seconds.curves},
+          {"output", seconds.output},       {"total", seconds.total}};
 }
 
 }  // namespace
@@ -45,12 +77,7 @@ void write_summary(const std::filesystem::path& path, const SimulateOptions& opt
   Json summary;
   summary["version"] = HEIGHTLIGHT_VERSION;
   summary["map"] = describe_map(options, surface, simulation.facts);
-  summary["visibility"] = {{"method", "rays"},
-                           {"azimuths", nullptr},
-                           {"rays", options.rays},
-                           {"seed", options.run.seed},
-                           {"rmse_estimate", nullptr}};
-  if (simulation.rmse_estimate) summary["visibility"]["rmse_estimate"] = *simulation.rmse_estimate;
+  summary["visibility"] = describe_visibility(options, simulation);
   summary["links"] = {{"count", simulation.links}, {"bytes", simulation.link_bytes}};
   summary["bounces"] = options.bounces;
   summary["albedo"] = albedo.varying.empty() ? Json(albedo.constant) : Json(options.albedo);

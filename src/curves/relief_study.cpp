@@ -28,21 +28,25 @@ Heightmap decimate(const Heightmap& map, int largest_side) {
   return copy;
 }
 
-BounceCurves simulate_curves(Heightmap map, const FormFactorOptions& options, int bounces, int bins) {
+BounceCurves simulate_curves(Heightmap map, int bounces, int bins) {
   const Surface surface = build_surface(std::move(map));
-  const FormFactors form_factors = build_form_factors(surface, options);
-  CurveBuilder builder(form_factors.ambient_occlusion, AoKind::ambient_occlusion, bins);
+  const std::unique_ptr<Transport> transport = build_horizon_transport(surface, study_plan(), {});
+  CurveBuilder builder(transport->ambient_occlusion, AoKind::ambient_occlusion, bins);
   bounce(
-      form_factors, surface, bounces, {},
-      [&](int, const TexelVector& irradiance) { builder.add(irradiance); }, options.quiet);
+      *transport, surface, bounces, {}, [&](int, const TexelVector& irradiance) { builder.add(irradiance); },
+      true);
   return builder.curves();
 }
 
 }  // namespace
 
+const HorizonPlan& study_plan() {
+  static const HorizonPlan kPlan{{48, 16, 0.3F}, {12, 16, 0.3F}, 0, 0};
+  return kPlan;
+}
+
 std::vector<ReliefCurves> study_reliefs(const Heightmap& map, const std::vector<double>& relief_shares,
-                                        int largest_side, const FormFactorOptions& options, int bounces,
-                                        int bins) {
+                                        int largest_side, int bounces, int bins, bool quiet) {
   if (largest_side < 1) throw UsageError("a relief study needs a map of at least one texel a side");
   if (bounces < 0) throw UsageError("the number of bounces must not be negative");
   for (const double share : relief_shares) {
@@ -51,15 +55,13 @@ std::vector<ReliefCurves> study_reliefs(const Heightmap& map, const std::vector<
   const double extent = map.spacing.x * map.height.width;
   const double tall = relief(map);  // of the whole map: what decimation skips must not change the scale
   const Heightmap small = decimate(map, largest_side);
-  FormFactorOptions silent = options;
-  silent.quiet = true;  // one bar for the study
-  Progress progress("reliefs", static_cast<std::int64_t>(relief_shares.size()), options.quiet);
+  Progress progress("reliefs", static_cast<std::int64_t>(relief_shares.size()), quiet);
   std::vector<ReliefCurves> study;
   for (const double share : relief_shares) {
     Heightmap scaled = small;
     const double scale = tall > 0 ? share * extent / tall : 1;
     for (float& height : scaled.height.values) height = static_cast<float>(height * scale);
-    study.push_back({share, simulate_curves(std::move(scaled), silent, bounces, bins)});
+    study.push_back({share, simulate_curves(std::move(scaled), bounces, bins)});
     progress.add(1);
   }
   return study;

@@ -20,24 +20,25 @@ double area_product(const TexelVector& a, const TexelVector& b, const Surface& s
 
 }  // namespace
 
-BounceSeries bounce(const FormFactors& form_factors, const Surface& surface, int bounces,
+BounceSeries bounce(const Transport& transport, const Surface& surface, int bounces,
                     const std::vector<double>& albedos,
                     const std::function<void(int, const TexelVector&)>& visit, bool quiet) {
   Progress progress("bounces", bounces + 1, quiet);
   BounceSeries series;
   series.bounces = bounces;
-  TexelVector last = form_factors.direct;
+  TexelVector last = transport.direct;
   series.sum = last;
   series.weighted.assign(albedos.size(), last);
   visit(0, last);
   for (int b = 1; b <= bounces; ++b) {
-    last = gather(form_factors, last);
+    last = transport.gather(last);
     series.sum += last;
     for (std::size_t i = 0; i < albedos.size(); ++i) series.weighted[i] += std::pow(albedos[i], b) * last;
     visit(b, last);
     progress.add(1);
   }
-  series.next = gather(form_factors, last);
+  series.last = last;
+  series.next = transport.gather(last);
   const double length = area_product(last, last, surface);
   series.spectral_radius = length > 0 ? area_product(last, series.next, surface) / length : 0;
   return series;

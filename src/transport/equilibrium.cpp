@@ -28,8 +28,8 @@ class LossOperator : public Eigen::EigenBase<LossOperator> {
   using StorageIndex = int;
   enum { ColsAtCompileTime = Eigen::Dynamic, MaxColsAtCompileTime = Eigen::Dynamic, IsRowMajor = false };
 
-  LossOperator(const FormFactors& form_factors, const TexelVector& albedo, Progress& progress)
-      : form_factors_(form_factors), albedo_(albedo), progress_(progress) {}
+  LossOperator(const Transport& transport, const TexelVector& albedo, Progress& progress)
+      : transport_(transport), albedo_(albedo), progress_(progress) {}
 
   Eigen::Index rows() const { return albedo_.size(); }
   Eigen::Index cols() const { return albedo_.size(); }
@@ -42,11 +42,11 @@ class LossOperator : public Eigen::EigenBase<LossOperator> {
 
   TexelVector times(const TexelVector& x) const {
     progress_.add(1);
-    return x - gather(form_factors_, albedo_.cwiseProduct(x));
+    return x - transport_.gather(albedo_.cwiseProduct(x));
   }
 
  private:
-  const FormFactors& form_factors_;
+  const Transport& transport_;
   const TexelVector& albedo_;
   Progress& progress_;
 };
@@ -69,12 +69,11 @@ struct generic_product_impl<heightlight::LossOperator, Right, SparseShape, Dense
 namespace heightlight {
 namespace {
 
-constexpr double kTolerance = 1e-8;  // of the source's norm
 constexpr int kMostIterations = 2000;
 
 }  // namespace
 
-Equilibrium solve_equilibrium(const FormFactors& form_factors, const TexelVector& source,
+Equilibrium solve_equilibrium(const Transport& transport, const TexelVector& source,
                               const TexelVector& albedo, const TexelVector& guess, bool quiet) {
   Equilibrium result;
   const double size = source.norm();
@@ -83,9 +82,9 @@ Equilibrium solve_equilibrium(const FormFactors& form_factors, const TexelVector
     return result;
   }
   Progress progress("equilibrium", 0, quiet);
-  const LossOperator loss(form_factors, albedo, progress);
+  const LossOperator loss(transport, albedo, progress);
   Eigen::BiCGSTAB<LossOperator, Eigen::IdentityPreconditioner> solver;
-  solver.setTolerance(kTolerance);
+  solver.setTolerance(transport.solver_tolerance());
   solver.setMaxIterations(kMostIterations);
   solver.compute(loss);
   result.irradiance = solver.solveWithGuess(source, guess);
@@ -94,10 +93,9 @@ Equilibrium solve_equilibrium(const FormFactors& form_factors, const TexelVector
   return result;
 }
 
-Equilibrium solve_tail(const FormFactors& form_factors, const BounceSeries& series, double albedo,
-                       bool quiet) {
+Equilibrium solve_tail(const Transport& transport, const BounceSeries& series, double albedo, bool quiet) {
   const TexelVector constant = TexelVector::Constant(series.next.size(), albedo);
-  Equilibrium tail = solve_equilibrium(form_factors, series.next, constant, series.next, quiet);
+  Equilibrium tail = solve_equilibrium(transport, series.next, constant, series.next, quiet);
   tail.irradiance *= std::pow(albedo, series.bounces + 1);
   return tail;
 }

@@ -81,8 +81,8 @@ std::uint64_t FormFactors::link_count() const {
 std::uint64_t FormFactors::bytes() const {
   std::uint64_t bytes = 0;
   for (const LinkRow& row : rows) {
-    bytes +=
-        row.links.size() * sizeof(Link) + row.begin.size() * sizeof(std::uint64_t) + row.weight_table.size();
+    bytes += row.links.size() * sizeof(Link) + row.begin.size() * sizeof(std::uint64_t) +
+             row.weights.size() * sizeof(double) + row.weight_table.size();
   }
   return bytes;
 }

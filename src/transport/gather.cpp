@@ -43,42 +43,46 @@ double value_at(const Link& link, const double* padded, std::uint32_t stride) {
          (down - both) * (corner[stride] - upper_left) + both * (corner[stride + 1] - upper_left);
 }
 
+/// Sum over a receiver's links: `weight_of(k)` is that of link k.
+template <class WeightOf>
+double sum_links(const LinkRow& line, std::size_t column, const double* padded, std::uint32_t stride,
+                 WeightOf&& weight_of) {
+  double sum = 0;
+  for (std::uint64_t k = line.begin[column]; k < line.begin[column + 1]; ++k) {
+    sum += weight_of(k) * value_at(line.links[k], padded, stride);
+  }
+  return sum;
+}
+
 }  // namespace
 
-TexelVector gather(const FormFactors& form_factors, const TexelVector& x) {
+TexelVector FormFactors::gather(const TexelVector& x) const {
   TexelVector result(x.size());
-  const TexelVector padded = pad(form_factors, x);
-  const std::uint32_t stride = static_cast<std::uint32_t>(form_factors.width) + 1;
-  parallel_for(form_factors.height, [&](std::int64_t row) {
-    const LinkRow& line = form_factors.rows[static_cast<std::size_t>(row)];
-    for (int column = 0; column < form_factors.width; ++column) {
+  const TexelVector padded = pad(*this, x);
+  const std::uint32_t stride = static_cast<std::uint32_t>(width) + 1;
+  parallel_for(height, [&](std::int64_t row) {
+    const LinkRow& line = rows[static_cast<std::size_t>(row)];
+    for (int column = 0; column < width; ++column) {
       const auto j = static_cast<std::size_t>(column);
-      const double* weight = form_factors.ray_weights[line.weight_table[j]].data();
-      double sum = 0;
-      for (std::uint64_t k = line.begin[j]; k < line.begin[j + 1]; ++k) {
-        const Link& link = line.links[k];
-        sum += weight[link.ray] * value_at(link, padded.data(), stride);
+      double& sum = result[row * width + column];
+      if (ray_weights.empty()) {
+        sum = sum_links(line, j, padded.data(), stride, [&](std::uint64_t k) { return line.weights[k]; });
+      } else {
+        const double* weight = ray_weights[line.weight_table[j]].data();
+        sum = sum_links(line, j, padded.data(), stride,
+                        [&](std::uint64_t k) { return weight[line.links[k].weight]; });
       }
-      result[row * form_factors.width + column] = sum;
     }
   });
   return result;
 }
 
-double row_sum_error(const FormFactors& form_factors) {
+double row_sum_error(const Transport& transport) {
+  const TexelVector sums = transport.direct + transport.gather(TexelVector::Ones(transport.direct.size()));
   double worst = 0;
-  for (int row = 0; row < form_factors.height; ++row) {
-    const LinkRow& line = form_factors.rows[static_cast<std::size_t>(row)];
-    for (int column = 0; column < form_factors.width; ++column) {
-      const auto j = static_cast<std::size_t>(column);
-      if (std::isnan(form_factors.sky_view_factor(row, column))) continue;
-      const double* weight = form_factors.ray_weights[line.weight_table[j]].data();
-      double sum = form_factors.direct[Eigen::Index{row} * form_factors.width + column];
-      for (std::uint64_t k = line.begin[j]; k < line.begin[j + 1]; ++k) {
-        sum += weight[line.links[k].ray];
-      }
-      worst = std::max(worst, std::fabs(sum - 1));
-    }
+  for (Eigen::Index i = 0; i < sums.size(); ++i) {
+    if (std::isnan(transport.sky_view_factor.values[static_cast<std::size_t>(i)])) continue;
+    worst = std::max(worst, std::fabs(sums[i] - 1));
   }
   return worst;
 }

@@ -38,11 +38,11 @@ void snap_to_corner(Link& link, const std::array<bool, 4>& present) {
 
 }  // namespace
 
-Link pack_link(std::uint16_t ray, const SurfacePoint& place, const Image<float>& height) {
+Link pack_link(std::uint16_t weight, const SurfacePoint& place, const Image<float>& height) {
   const auto width = static_cast<std::uint32_t>(height.width);
   const std::uint32_t row = place.cell / width;
   const std::uint32_t column = place.cell % width;
-  Link link{row * (width + 1) + column, ray, to_byte(place.across), to_byte(place.down)};
+  Link link{row * (width + 1) + column, weight, to_byte(place.across), to_byte(place.down)};
   const std::array<bool, 4> present =
       present_corners(static_cast<int>(row), static_cast<int>(column), height);
   if (present != std::array<bool, 4>{true, true, true, true}) snap_to_corner(link, present);

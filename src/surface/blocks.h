@@ -1,0 +1,13 @@
+#pragma once
+
+#include <vector>
+
+namespace heightlight {
+
+/// For the blocks `first` … `first + count − 1` along an axis of `samples` samples, at a level whose blocks
+/// are 2^level samples wide: the block of the map that stands for each, or −1 where nothing is. Blocks beyond
+/// the edge of a tiling map are found by their middle sample, since a side need not be a multiple of a
+/// block's; one that straddles the edge counts as inside.
+std::vector<int> block_sources(int first, int count, int level, int samples, bool tiles);
+
+}  // namespace heightlight

@@ -1,0 +1,93 @@
+#include "transport/horizon_links.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <memory>
+
+#include "core/parallel.h"
+#include "transport/link_replay.h"
+
+namespace heightlight {
+namespace {
+
+/// What a thread needs to go from tile to tile.
+struct Workspace {
+  WalkTile tile;
+  std::vector<std::uint8_t> stream;
+};
+
+}  // namespace
+
+HorizonLinks::HorizonLinks(const Surface& surface, const HeightMips& mips, const WalkOptions& options,
+                           std::uint64_t memory, bool quiet)
+    : surface_(surface),
+      mips_(mips),
+      options_(options),
+      azimuths_(make_link_azimuths(surface, options)),
+      rings_(ring_count(surface, options)),
+      tiles_(surface.width(), surface.height()),
+      light_(surface),
+      streams_(static_cast<std::size_t>(tiles_.count())) {
+  std::vector<std::unique_ptr<Workspace>> workspaces(static_cast<std::size_t>(thread_count()));
+  std::atomic<std::uint64_t> taken{0};
+  Progress progress("links", tiles_.count(), quiet);
+  parallel_for(
+      tiles_.count(),
+      [&](std::int64_t i) {
+        if (taken.load(std::memory_order_relaxed) >= memory) return;
+        std::unique_ptr<Workspace>& work = workspaces[static_cast<std::size_t>(omp_get_thread_num())];
+        if (!work) work = std::make_unique<Workspace>();
+        work->tile.load(surface_, mips_, options_, rings_, tiles_.frame(i));
+        work->stream.clear();
+        walk_links(work->tile, azimuths_, work->stream);
+        const std::uint64_t size = work->stream.size();
+        if (taken.fetch_add(size) + size <= memory) streams_[static_cast<std::size_t>(i)] = work->stream;
+      },
+      &progress);
+}
+
+void HorizonLinks::gather(const TexelVector& x, const TexelVector& sky, TexelVector& result) {
+  light_.fill(x);
+  std::vector<std::unique_ptr<Workspace>> workspaces(static_cast<std::size_t>(thread_count()));
+  parallel_for(tiles_.count(), [&](std::int64_t i) {
+    const TileFrame frame = tiles_.frame(i);
+    const std::vector<std::uint8_t>* stream = &streams_[static_cast<std::size_t>(i)];
+    if (stream->empty()) {
+      std::unique_ptr<Workspace>& work = workspaces[static_cast<std::size_t>(omp_get_thread_num())];
+      if (!work) work = std::make_unique<Workspace>();
+      work->tile.load(surface_, mips_, options_, rings_, frame);
+      work->stream.clear();
+      walk_links(work->tile, azimuths_, work->stream);
+      stream = &work->stream;
+    }
+    std::array<float, TileFrame::kSide * TileFrame::kSide> mean;
+    replay_links(frame, azimuths_, stream->data(), light_, mean.data());
+    const Image<float>& height = surface_.map.height;
+    for (int row = 0; row < frame.rows; ++row) {
+      for (int column = 0; column < frame.columns; ++column) {
+        const std::size_t texel = height.index(frame.first_row + row, frame.first_column + column);
+        const auto at = static_cast<Eigen::Index>(texel);
+        const double seen = mean[static_cast<std::size_t>(row * TileFrame::kSide + column)];
+        result[at] = std::isnan(height.values[texel]) ? 0 : (1 - sky[at]) * seen;
+      }
+    }
+  });
+}
+
+std::uint64_t HorizonLinks::entries() const { return bytes() / kEntryBytes; }
+
+std::uint64_t HorizonLinks::bytes() const {
+  std::uint64_t bytes = 0;
+  for (const std::vector<std::uint8_t>& stream : streams_) bytes += stream.size();
+  return bytes;
+}
+
+double HorizonLinks::kept_share() const {
+  const auto kept = std::count_if(streams_.begin(), streams_.end(),
+                                  [](const std::vector<std::uint8_t>& stream) { return !stream.empty(); });
+  return static_cast<double>(kept) / static_cast<double>(streams_.size());
+}
+
+}  // namespace heightlight

@@ -1,0 +1,132 @@
+#include "transport/horizon_pilot.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+
+#include "core/hash.h"
+#include "core/parallel.h"
+#include "transport/exact_gather.h"
+#include "transport/link_replay.h"
+#include "visibility/sky_walk.h"
+
+namespace heightlight {
+namespace {
+
+constexpr std::int64_t kTiles = 12;
+constexpr int kRows = 8;
+constexpr int kExactPerTile = 16;
+
+double root_mean(double squares, std::size_t count) {
+  return count > 0 ? std::sqrt(squares / static_cast<double>(count)) : 0;
+}
+
+}  // namespace
+
+HorizonPilot::HorizonPilot(const Surface& surface, std::uint64_t seed)
+    : surface_(surface), mips_(build_height_mips(surface)) {
+  const TileGrid tiles(surface.width(), surface.height());
+  const std::int64_t wanted = std::min(kTiles, tiles.count());
+  for (std::int64_t i = 0; i < wanted; ++i) {
+    // One from each of as many equal parts of the map.
+    const std::int64_t begin = tiles.count() * i / wanted;
+    const std::int64_t end = tiles.count() * (i + 1) / wanted;
+    const std::uint64_t pick = hash_combine(seed, static_cast<std::uint64_t>(i));
+    TileFrame frame =
+        tiles.frame(begin + static_cast<std::int64_t>(pick % static_cast<std::uint64_t>(end - begin)));
+    frame.rows = std::min(frame.rows, kRows);
+    frames_.push_back(frame);
+  }
+  const ExactWalker walker(surface, kExactAzimuths);
+  std::vector<ExactReceiver> receivers(frames_.size() * kExactPerTile);
+  parallel_for(static_cast<std::int64_t>(receivers.size()), [&](std::int64_t i) {
+    ExactReceiver& receiver = receivers[static_cast<std::size_t>(i)];
+    receiver.frame = static_cast<std::size_t>(i) / kExactPerTile;
+    const TileFrame& frame = frames_[receiver.frame];
+    const std::uint64_t pick = hash_combine(seed + 1, static_cast<std::uint64_t>(i)) %
+                               static_cast<std::uint64_t>(frame.rows * frame.columns);
+    receiver.row = static_cast<int>(pick) / frame.columns;
+    receiver.column = static_cast<int>(pick) % frame.columns;
+    walker.view(frame.first_row + receiver.row, frame.first_column + receiver.column, receiver.view);
+  });
+  std::copy_if(receivers.begin(), receivers.end(), std::back_inserter(exact_),
+               [](const ExactReceiver& receiver) { return !std::isnan(receiver.view.sky_view_factor); });
+}
+
+std::vector<float> HorizonPilot::walk_sky_of(const WalkOptions& options) {
+  std::vector<AzimuthTable> azimuths;
+  for (int k = 0; k < options.azimuths; ++k) azimuths.push_back(make_azimuth_table(surface_, options, k));
+  const int rings = ring_count(surface_, options);
+  std::vector<float> result(frames_.size() * WalkTile::kTexels);
+  parallel_for(static_cast<std::int64_t>(frames_.size()), [&](std::int64_t i) {
+    const auto tile = std::make_unique<WalkTile>();
+    const auto sums = std::make_unique<SkySums>();
+    const auto far = std::make_unique<FarView>();
+    tile->load(surface_, mips_, options, rings, frames_[static_cast<std::size_t>(i)]);
+    for (const AzimuthTable& azimuth : azimuths) {
+      look_far(*tile, azimuth, *far);
+      walk_sky(*tile, azimuth, *far, *sums);
+    }
+    float* out = result.data() + i * WalkTile::kTexels;
+    for (std::size_t at = 0; at < WalkTile::kTexels; ++at) {
+      out[at] = tile->present[at] && sums->full[at] > 0 ? sums->sky[at] / sums->full[at] : -1;
+    }
+  });
+  return result;
+}
+
+double HorizonPilot::sampling_error(int fineness, float peak_share) {
+  const std::vector<float> walked = walk_sky_of({kExactAzimuths, fineness, peak_share});
+  double squares = 0;
+  for (const ExactReceiver& receiver : exact_) {
+    const std::size_t at = receiver.frame * WalkTile::kTexels +
+                           static_cast<std::size_t>(receiver.row * TileFrame::kSide + receiver.column);
+    const double error = double{walked[at]} - receiver.view.sky_view_factor;
+    squares += error * error;
+  }
+  return root_mean(squares, exact_.size());
+}
+
+double HorizonPilot::azimuth_error(const WalkOptions& options) {
+  WalkOptions many = options;
+  many.azimuths = kManyAzimuths;
+  if (many_.empty() || many.fineness != many_options_.fineness ||
+      many.peak_share != many_options_.peak_share) {
+    many_ = walk_sky_of(many);
+    many_options_ = many;
+  }
+  const std::vector<float> few = walk_sky_of(options);
+  double squares = 0;
+  std::size_t count = 0;
+  for (std::size_t at = 0; at < few.size(); ++at) {
+    if (few[at] < 0) continue;
+    squares += double{few[at] - many_[at]} * double{few[at] - many_[at]};
+    ++count;
+  }
+  return root_mean(squares, count);
+}
+
+double HorizonPilot::link_error(const WalkOptions& options, const LightMips& light, const TexelVector& x) {
+  const std::vector<LinkAzimuth> azimuths = make_link_azimuths(surface_, options);
+  const int rings = ring_count(surface_, options);
+  std::vector<float> seen(frames_.size() * WalkTile::kTexels);
+  parallel_for(static_cast<std::int64_t>(frames_.size()), [&](std::int64_t i) {
+    const auto tile = std::make_unique<WalkTile>();
+    std::vector<std::uint8_t> stream;
+    tile->load(surface_, mips_, options, rings, frames_[static_cast<std::size_t>(i)]);
+    walk_links(*tile, azimuths, stream);
+    replay_links(*tile, azimuths, stream.data(), light, seen.data() + i * WalkTile::kTexels);
+  });
+  double squares = 0;
+  for (const ExactReceiver& receiver : exact_) {
+    const std::size_t at = receiver.frame * WalkTile::kTexels +
+                           static_cast<std::size_t>(receiver.row * TileFrame::kSide + receiver.column);
+    const double surface_share = 1 - receiver.view.sky_view_factor;
+    const double error = surface_share * double{seen[at]} - gather_exactly(receiver.view, x, surface_);
+    squares += error * error;
+  }
+  return root_mean(squares, exact_.size());
+}
+
+}  // namespace heightlight

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "heightlight/transport.h"
+#include "transport/light_mips.h"
+#include "visibility/exact_walk.h"
+#include "visibility/height_mips.h"
+#include "visibility/walk_tile.h"
+
+namespace heightlight {
+
+/// Receivers on which ways of walking are tried before the whole map is walked: the first rows of some tiles,
+/// and among them some that are walked exactly too.
+class HorizonPilot {
+ public:
+  HorizonPilot(const Surface& surface, std::uint64_t seed);
+
+  bool empty() const { return exact_.empty(); }
+
+  /// RMSE of A against exact walks along the same azimuths: what sampling costs, apart from few azimuths.
+  double sampling_error(int fineness, float peak_share);
+
+  /// RMSE of A against kManyAzimuths walked alike: what few azimuths cost, apart from sampling.
+  double azimuth_error(const WalkOptions& options);
+
+  /// RMSE of (1 − A) × the mean of `x` seen, against exact walks, where only what is seen is in error.
+  /// `light` is filled with x.
+  double link_error(const WalkOptions& options, const LightMips& light, const TexelVector& x);
+
+  static constexpr int kExactAzimuths = 64;
+  static constexpr int kManyAzimuths = 256;
+
+ private:
+  struct ExactReceiver {
+    std::size_t frame;  ///< index of its tile
+    int row;            ///< in the tile
+    int column;
+    SliceView view;
+  };
+
+  /// A of all receivers of the pilot, tile by tile.
+  std::vector<float> walk_sky_of(const WalkOptions& options);
+
+  const Surface& surface_;
+  HeightMips mips_;
+  std::vector<TileFrame> frames_;  ///< cut to the rows that are tried
+  std::vector<ExactReceiver> exact_;
+  WalkOptions many_options_;
+  std::vector<float> many_;  ///< A by kManyAzimuths, made when first asked for
+};
+
+}  // namespace heightlight

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <vector>
+
+#include "heightlight/surface.h"
+
+namespace heightlight {
+
+/// Heights over square blocks of samples, for what a receiver sees from afar. Level l covers blocks of 2^l ×
+/// 2^l samples, ⌈width / 2^l⌉ × ⌈height / 2^l⌉ of them; level 0 is the map itself and is not stored again.
+/// The last level is one block. Heights are relative to the map's base, like the map's own; kNoHeight where a
+/// block holds no sample.
+struct HeightMips {
+  struct Level {
+    Image<float> mean;
+    Image<float> highest;
+  };
+  std::vector<Level> levels;  ///< levels[l − 1] is level l
+};
+
+/// Below everything, and finite, so that a weight of zero takes it away.
+constexpr float kNoHeight = -1e30F;
+
+/// Bytes that build_height_mips takes for a map of that size.
+std::uint64_t height_mips_bytes(int width, int height);
+
+HeightMips build_height_mips(const Surface& surface);
+
+}  // namespace heightlight

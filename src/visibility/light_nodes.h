@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "visibility/walk_table.h"
+
+// Where light is read along one azimuth. Horizons need fine samples; the irradiance of what is seen changes
+// more slowly, so that four places an octave of distance stand for all of it:
+//
+//   * node 0: the receiver itself;
+//   * level 0, up to 8 texels of way: the walk's own samples, interpolated between the two of the map beside
+//   them;
+//   * level λ ≥ 1, ways 4·2^λ to 8·2^λ: four nodes, 2^λ apart, each a block of 2^λ × 2^λ samples.
+//
+// Like a walk's samples, nodes are the same seen from every vertex: a link is a node's number and a weight,
+// and neighbouring receivers read neighbouring values.
+
+namespace heightlight {
+
+struct LightNode {
+  int level = 0;
+  int row[2] = {0, 0};  ///< texels from the receiver; the second is for level 0 only
+  int column[2] = {0, 0};
+  float share = 0;  ///< of the second sample
+};
+
+/// To which node what a walk's sample reveals is given: the visible part of the profile between the sample
+/// before and this one. Near the receiver both samples are nodes, `node` and `node + 1`, and split it by the
+/// place seen.
+struct NodeShare {
+  std::uint8_t node = 0;
+  bool splits = false;
+};
+
+/// What links of one azimuth look at.
+struct LightTable {
+  std::vector<LightNode> nodes;               ///< at most 256; by rising way, level 0 first
+  int near_nodes = 0;                         ///< of level 0
+  std::vector<NodeShare> near;                ///< per near sample of the walk
+  std::vector<std::vector<NodeShare>> rings;  ///< per sample of each ring
+};
+
+/// For the walk's table of azimuth k.
+LightTable make_light_table(const Surface& surface, const WalkOptions& options, int k,
+                            const AzimuthTable& walk);
+
+/// Largest number of blocks that a node of any level lies away from the receiver.
+constexpr int kNodeReach = 9;
+
+}  // namespace heightlight

@@ -1,0 +1,233 @@
+// The lanes of the vector hold neighbouring receivers of a row. The arithmetic is link_walk_scalar.cpp's.
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "visibility/link_walk.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "visibility/link_walk_simd.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "visibility/walk_lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace heightlight::HWY_NAMESPACE {
+
+constexpr std::size_t kMostNodes = 256;
+
+/// Weights of a block's receivers, node by node.
+struct BlockWeights {
+  HWY_ALIGN float weight[kMostNodes][kBlock];
+};
+
+/// One vector of receivers on its walk along one azimuth.
+class LinkLanes {
+ public:
+  LinkLanes(const WalkTile& tile, const LinkAzimuth& azimuth, int row, int column, float* weights)
+      : tile_(tile),
+        azimuth_(azimuth),
+        row_(tile.first_row + row),
+        column_(tile.first_column + column),
+        weights_(weights) {
+    const auto at = static_cast<std::size_t>(row * WalkTile::kSide + column);
+    n_z_ = hn::Load(kF, tile.normal_z.data() + at);
+    z_ = hn::Load(kF, tile.height.data() + at);
+    slope_ = hn::MulAdd(hn::Load(kF, tile.slope_x.data() + at), hn::Set(kF, azimuth.walk.world_x),
+                        hn::Mul(hn::Load(kF, tile.slope_y.data() + at), hn::Set(kF, azimuth.walk.world_y)));
+    c_ = hn::Neg(hn::Mul(n_z_, slope_));
+    const VF one = hn::Set(kF, 1.0F);
+    const VF q = hn::Div(one, hn::MulAdd(slope_, slope_, one));
+    cosine_ = hn::Sqrt(q);
+    seen_ = mass(slope_, q);
+    slope_before_ = hn::Zero(kF);
+  }
+
+  void walk_near() {
+    const HeightWindow& window = tile_.windows[0];
+    const float* here = window.values.data() + std::ptrdiff_t{row_ - window.first_row} * window.width +
+                        (column_ - window.first_column);
+    for (std::size_t k = 0; k < azimuth_.walk.near.size(); ++k) {
+      const NearSample& sample = azimuth_.walk.near[k];
+      const float* from = here + std::ptrdiff_t{sample.row[0]} * window.width + sample.column[0];
+      const float* to = here + std::ptrdiff_t{sample.row[1]} * window.width + sample.column[1];
+      const VF above = hn::MulAdd(hn::Set(kF, sample.weight[1]), hn::LoadU(kF, to),
+                                  hn::Mul(hn::Set(kF, sample.weight[0]), hn::LoadU(kF, from)));
+      look(hn::NegMulAdd(hn::Set(kF, sample.per_distance), z_, above), sample.way, azimuth_.light.near[k]);
+    }
+  }
+
+  void walk_ring(int ring) {
+    const HeightWindow& window = tile_.windows[static_cast<std::size_t>(ring)];
+    const std::vector<RingSample>& samples = azimuth_.walk.rings[static_cast<std::size_t>(ring) - 1];
+    const std::vector<NodeShare>& shares = azimuth_.light.rings[static_cast<std::size_t>(ring) - 1];
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+      const RingSample& sample = samples[k];
+      const int start = column_ + sample.column;
+      const float* first = window.values.data() +
+                           std::ptrdiff_t{((row_ + sample.row) >> ring) - window.first_row} * window.width +
+                           ((start >> ring) - window.first_column);
+      const int phase = start & ((1 << ring) - 1);
+      const auto order =
+          hn::IndicesFromVec(kF, hn::ShiftRightSame(hn::Add(hn::Set(kI, phase), hn::Iota(kI, 0)), ring));
+      const VF height = hn::TableLookupLanes(hn::LoadU(kF, first), order);
+      look(hn::Mul(hn::Sub(height, z_), hn::Set(kF, sample.per_distance)), sample.way, shares[k]);
+    }
+  }
+
+  /// Could a height of at most `highest`, no nearer than 1 / `per_distance`, raise any horizon?
+  bool may_rise(float highest, float per_distance) const {
+    const VF above = hn::Max(hn::Sub(hn::Set(kF, highest), z_), hn::Zero(kF));
+    return !hn::AllFalse(kF, hn::Gt(hn::Mul(above, hn::Set(kF, per_distance)), slope_));
+  }
+
+ private:
+  VF mass(VF m, VF q) const { return hn::NegMulAdd(n_z_, q, hn::Mul(c_, hn::MulAdd(m, q, arc_tangent(m)))); }
+
+  void look(VF s, float way, const NodeShare& share) {
+    const auto rises = hn::Gt(s, slope_);
+    if (!hn::AllFalse(kF, rises)) give(s, rises, way, share);
+    slope_before_ = s;
+    way_before_ = way;
+  }
+
+  /// Mean place of the visible stretch, as a share of it.
+  VF mean_share(VF to_slope, VF to_cosine, VF from_way, VF to_way) const {
+    const VF zero = hn::Zero(kF);
+    const VF from_sine = hn::Mul(slope_, cosine_);
+    const VF to_sine = hn::Mul(to_slope, to_cosine);
+    const VF from_normal = hn::Max(hn::MulAdd(c_, cosine_, hn::Mul(n_z_, from_sine)), zero);
+    const VF to_normal = hn::Max(hn::MulAdd(c_, to_cosine, hn::Mul(n_z_, to_sine)), zero);
+    const VF near_scale = hn::Mul(from_way, to_cosine);
+    const VF far_scale = hn::Mul(to_way, cosine_);
+    VF weights = zero;
+    VF weighted = zero;
+    for (const float node : kNodes) {
+      const VF t = hn::Set(kF, node);
+      const VF along = hn::MulAdd(t, hn::Sub(to_cosine, cosine_), cosine_);
+      const VF up = hn::MulAdd(t, hn::Sub(to_sine, from_sine), from_sine);
+      const VF squared = hn::MulAdd(along, along, hn::Mul(up, up));
+      const VF towards = hn::MulAdd(t, hn::Sub(to_normal, from_normal), from_normal);
+      const VF weight = hn::Div(hn::Mul(towards, along), hn::Mul(squared, squared));
+      const VF near = hn::Mul(t, near_scale);
+      const VF share = hn::Div(near, hn::MulAdd(hn::Set(kF, 1 - node), far_scale, near));
+      weights = hn::Add(weights, weight);
+      weighted = hn::MulAdd(weight, share, weighted);
+    }
+    const auto any = hn::Gt(weights, zero);
+    return hn::IfThenElse(any, hn::Div(weighted, weights), hn::Set(kF, 0.5F));
+  }
+
+  void give(VF s, hn::Mask<F> rises, float way, const NodeShare& share) {
+    const VF one = hn::Set(kF, 1.0F);
+    const VF q = hn::Div(one, hn::MulAdd(s, s, one));
+    const VF mass_above = mass(s, q);
+    const VF to_cosine = hn::Sqrt(q);
+    const VF weight = hn::IfThenElseZero(rises, hn::Sub(mass_above, seen_));
+    float* node = weights_ + std::ptrdiff_t{share.node} * kBlock;
+    if (share.splits) {
+      VF next = hn::Set(kF, kOwnFacet);
+      if (way_before_ > 0) {
+        const VF before = hn::Set(kF, way_before_);
+        const VF after = hn::Set(kF, way);
+        const VF below = hn::Mul(before, hn::Sub(slope_, slope_before_));
+        const VF above = hn::Mul(after, hn::Sub(s, slope_));
+        const VF begin = hn::Div(below, hn::Add(below, above));
+        const VF from_way = hn::MulAdd(begin, hn::Sub(after, before), before);
+        next = hn::MulAdd(hn::Sub(one, begin), mean_share(s, to_cosine, from_way, after), begin);
+      }
+      const VF given = hn::IfThenElseZero(rises, hn::Mul(weight, next));
+      hn::Store(hn::Add(hn::Load(kF, node + kBlock), given), kF, node + kBlock);
+      hn::Store(hn::Add(hn::Load(kF, node), hn::Sub(weight, given)), kF, node);
+    } else {
+      hn::Store(hn::Add(hn::Load(kF, node), weight), kF, node);
+    }
+    slope_ = hn::IfThenElse(rises, s, slope_);
+    cosine_ = hn::IfThenElse(rises, to_cosine, cosine_);
+    seen_ = hn::IfThenElse(rises, mass_above, seen_);
+  }
+
+  const WalkTile& tile_;
+  const LinkAzimuth& azimuth_;
+  int row_, column_;
+  float* weights_;  ///< of the vector's first receiver and node 0
+  VF c_, n_z_, z_, slope_, cosine_, seen_, slope_before_;
+  float way_before_ = 0;
+};
+
+/// Rounds a block's weights to steps and appends the entries that have any.
+void append_entries(const LinkAzimuth& azimuth, const BlockWeights& weights, float* carry,
+                    std::vector<std::uint8_t>& stream) {
+  const std::size_t nodes = azimuth.light.nodes.size();
+  const std::size_t counts = stream.size();
+  stream.resize(counts + 2 + nodes * kEntryBytes);
+  std::uint8_t* out = stream.data() + counts + 2;
+  const hn::Rebind<std::uint8_t, F> bytes;
+  for (std::size_t node = 0; node < nodes; ++node) {
+    auto any = hn::Zero(kI);
+    for (std::size_t lane = 0; lane < kBlock; lane += hn::Lanes(kF)) {
+      const VF weight = hn::MulAdd(hn::Load(kF, weights.weight[node] + lane), hn::Set(kF, kQuantum),
+                                   hn::Load(kF, carry + lane));
+      const VI steps = hn::Min(hn::Max(hn::NearestInt(weight), hn::Zero(kI)), hn::Set(kI, 255));
+      hn::Store(hn::Sub(weight, hn::ConvertTo(kF, steps)), kF, carry + lane);
+      hn::StoreU(hn::DemoteTo(bytes, steps), bytes, out + 1 + lane);
+      any = hn::Or(any, steps);
+    }
+    if (hn::AllTrue(kI, hn::Eq(any, hn::Zero(kI)))) continue;
+    out[0] = static_cast<std::uint8_t>(node);
+    out += kEntryBytes;
+    ++stream[counts + (static_cast<int>(node) < azimuth.light.near_nodes ? 0 : 1)];
+  }
+  stream.resize(static_cast<std::size_t>(out - stream.data()));
+}
+
+void walk_links_lanes(const WalkTile& tile, const std::vector<LinkAzimuth>& azimuths,
+                      std::vector<std::uint8_t>& stream) {
+  const int lanes = static_cast<int>(hn::Lanes(kF));
+  const std::size_t rings = azimuths.empty() ? 0 : azimuths.front().walk.rings.size();
+  std::vector<float> highest(azimuths.size() * rings);
+  for (std::size_t k = 0; k < azimuths.size(); ++k) {
+    for (std::size_t ring = 0; ring < rings; ++ring) {
+      highest[k * rings + ring] =
+          ring_highest(tile, azimuths[k].walk.rings[ring], static_cast<int>(ring) + 1);
+    }
+  }
+  BlockWeights weights;
+  for (int row = 0; row < tile.rows; ++row) {
+    for (int column = 0; column < tile.columns; column += kBlock) {
+      HWY_ALIGN std::array<float, kBlock> carry{};
+      for (std::size_t k = 0; k < azimuths.size(); ++k) {
+        const LinkAzimuth& azimuth = azimuths[k];
+        std::fill_n(&weights.weight[0][0], azimuth.light.nodes.size() * kBlock, 0.0F);
+        for (int lane = 0; lane < kBlock; lane += lanes) {
+          LinkLanes walk(tile, azimuth, row, column + lane, &weights.weight[0][lane]);
+          walk.walk_near();
+          for (std::size_t ring = 0; ring < rings; ++ring) {
+            const float nearest = azimuth.walk.rings[ring].front().per_distance;
+            if (walk.may_rise(highest[k * rings + ring], nearest)) walk.walk_ring(static_cast<int>(ring) + 1);
+          }
+        }
+        append_entries(azimuth, weights, carry.data(), stream);
+      }
+    }
+  }
+}
+
+}  // namespace heightlight::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace heightlight {
+
+HWY_EXPORT(walk_links_lanes);
+
+void walk_links(const WalkTile& tile, const std::vector<LinkAzimuth>& azimuths,
+                std::vector<std::uint8_t>& stream) {
+  HWY_DYNAMIC_DISPATCH(walk_links_lanes)(tile, azimuths, stream);
+}
+
+}  // namespace heightlight
+#endif

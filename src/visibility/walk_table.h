@@ -1,0 +1,72 @@
+#pragma once
+
+#include <vector>
+
+#include "heightlight/surface.h"
+#include "heightlight/visibility.h"
+
+// Where a horizon walk looks, for one azimuth. The lattice of samples is the same seen from every vertex, so
+// that one table serves all receivers, and neighbouring receivers read neighbouring samples.
+//
+// From the receiver, t texels of way along the unit grid direction (g_u, g_v) are the world distance t ℓ.
+// What is seen at height v above the receiver's z stands under the slope (v − z) / (t ℓ).
+//
+//   * Up to t = ν/4, at every breakpoint of the profile: the crossings with rows, columns and diagonals.
+//   * Up to t = 2ν, at the crossings with the rows or the columns, whichever the azimuth meets more squarely,
+//     interpolated between the two samples beside them.
+//   * Ring l ≥ 1, t from ν 2^l to ν 2^(l+1): ν samples, 2^l apart, of the block of level l that each falls
+//   into.
+//
+// ν is the walk's fineness; its cost grows like ν log(N / ν).
+
+namespace heightlight {
+
+/// The surface at an edge of the mesh, between two samples given by their offsets from the receiver's.
+struct NearSample {
+  float way = 0;  ///< t
+  int row[2] = {0, 0};
+  int column[2] = {0, 0};
+  float weight[2] = {0, 0};  ///< of each sample, over the world distance: they sum to `per_distance`
+  float per_distance = 0;    ///< 1 / (t ℓ)
+};
+
+/// The place that a ring looks at, rounded to a sample: whole texels from the receiver's.
+struct RingSample {
+  float way = 0;
+  int row = 0;
+  int column = 0;
+  float per_distance = 0;
+};
+
+/// Unit grid direction of an azimuth, and the world length of one texel of way along it.
+struct GridDirection {
+  double u = 1;  ///< g_u, along the columns
+  double v = 0;  ///< g_v, along the rows, downwards
+  double length = 1;
+};
+
+/// Of azimuth k: φ_k = 2π (k + ¼) / K. The quarter keeps the azimuths of a scene that has a mirror's symmetry
+/// from being the same twice.
+GridDirection grid_direction(const Surface& surface, const WalkOptions& options, int k);
+
+struct AzimuthTable {
+  float world_x = 1;  ///< cos φ
+  float world_y = 0;  ///< sin φ, y up the image
+  float along_column =
+      1;  ///< world distance gained along the azimuth by moving one column to the right: g_u ℓ
+  float along_row = 0;                         ///< and one row down: g_v ℓ
+  std::vector<NearSample> near;                ///< by rising way
+  std::vector<std::vector<RingSample>> rings;  ///< rings[l − 1] is ring l
+};
+
+/// Texels beside a tile that its near samples reach.
+int near_reach(const WalkOptions& options);
+
+/// The table of azimuth k. Rings go on while the map's relief, seen from the ring's beginning, spans a slope
+/// of more than 0.004, at most to four times the map's size, and for `open` maps to the far corner.
+AzimuthTable make_azimuth_table(const Surface& surface, const WalkOptions& options, int k);
+
+/// Levels that the rings of any azimuth use.
+int ring_count(const Surface& surface, const WalkOptions& options);
+
+}  // namespace heightlight

@@ -1,0 +1,173 @@
+#include "visibility/walk_tile.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "surface/blocks.h"
+
+namespace heightlight {
+namespace {
+
+constexpr int kCoarse = 8;  // values a side that one entry of HeightWindow::coarse bounds
+
+void bound_values(HeightWindow& window) {
+  const int wide = window.coarse_width();
+  const int high = (window.height + kCoarse - 1) / kCoarse;
+  window.coarse.assign(static_cast<std::size_t>(wide) * static_cast<std::size_t>(high), kNoHeight);
+  for (int row = 0; row < window.height; ++row) {
+    const float* values = window.values.data() + std::ptrdiff_t{row} * window.width;
+    float* bounds = window.coarse.data() + std::ptrdiff_t{row / kCoarse} * wide;
+    for (int column = 0; column < window.width; ++column) {
+      float& bound = bounds[column / kCoarse];
+      bound = std::max(bound, values[column]);
+    }
+  }
+}
+
+ReceiverGroups span_groups(const WalkTile& tile, int side) {
+  ReceiverGroups groups;
+  groups.side = side;
+  groups.across = WalkTile::kSide / side;
+  for (int row = 0; row < WalkTile::kSide; row += side) {
+    for (int column = 0; column < WalkTile::kSide; column += side) {
+      float lowest = -kNoHeight;
+      float highest = kNoHeight;
+      for (int i = row; i < row + side; ++i) {
+        for (int j = column; j < column + side; ++j) {
+          const auto at = static_cast<std::size_t>(i * WalkTile::kSide + j);
+          if (!tile.present[at]) continue;
+          lowest = std::min(lowest, tile.height[at]);
+          highest = std::max(highest, tile.height[at]);
+        }
+      }
+      groups.lowest.push_back(lowest <= highest ? lowest : 0);
+      groups.highest.push_back(lowest <= highest ? highest : 0);
+    }
+  }
+  return groups;
+}
+
+/// Places a window so that it reaches `reach` blocks beyond the tile on all sides.
+void place(HeightWindow& window, int level, int reach, int row, int column) {
+  const int across = (WalkTile::kSide >> level) + 2 + 2 * reach;
+  window.level = level;
+  window.first_row = (row >> level) - reach;
+  window.first_column = (column >> level) - reach;
+  window.width = across;
+  window.height = across;
+  window.values.resize(static_cast<std::size_t>(across) * static_cast<std::size_t>(across));
+}
+
+void fill_nearest(HeightWindow& window, const Image<float>& heights, bool tiles, float reference) {
+  const std::vector<int> rows = block_sources(window.first_row, window.height, 0, heights.height, tiles);
+  const std::vector<int> columns = block_sources(window.first_column, window.width, 0, heights.width, tiles);
+  float* out = window.values.data();
+  for (const int row : rows) {
+    for (const int column : columns) {
+      const float height = row < 0 || column < 0 ? kNoHeight : heights(row, column);
+      *out++ = std::isnan(height) || height == kNoHeight ? kNoHeight : height - reference;
+    }
+  }
+}
+
+void fill_blocks(HeightWindow& window, const HeightMips& mips, const Surface& surface, float peak_share,
+                 float reference) {
+  if (mips.levels.empty()) {
+    std::fill(window.values.begin(), window.values.end(), surface.map.height.values[0] - reference);
+    return;
+  }
+  const int level = std::min(window.level, static_cast<int>(mips.levels.size()));
+  const HeightMips::Level& blocks = mips.levels[static_cast<std::size_t>(level) - 1];
+  std::vector<int> rows =
+      block_sources(window.first_row, window.height, window.level, surface.height(), surface.tiles());
+  std::vector<int> columns =
+      block_sources(window.first_column, window.width, window.level, surface.width(), surface.tiles());
+  float* out = window.values.data();
+  for (const int row : rows) {
+    for (const int column : columns) {
+      float height = kNoHeight;
+      if (row >= 0 && column >= 0) {
+        const float mean = blocks.mean(row, column);
+        if (mean != kNoHeight) height = mean + peak_share * (blocks.highest(row, column) - mean) - reference;
+      }
+      *out++ = height;
+    }
+  }
+}
+
+}  // namespace
+
+TileFrame TileGrid::frame(std::int64_t i) const {
+  TileFrame frame;
+  frame.first_row = static_cast<int>(i / across) * TileFrame::kSide;
+  frame.first_column = static_cast<int>(i % across) * TileFrame::kSide;
+  frame.rows = std::min(TileFrame::kSide, height - frame.first_row);
+  frame.columns = std::min(TileFrame::kSide, width - frame.first_column);
+  return frame;
+}
+
+void WalkTile::load(const Surface& surface, const HeightMips& mips, const WalkOptions& options, int rings,
+                    const TileFrame& frame) {
+  static_cast<TileFrame&>(*this) = frame;
+  const int row = first_row;
+  const int column = first_column;
+  const Image<float>& map = surface.map.height;
+  float reference =
+      0;  // a height of the tile's own, so that what is level stays so and digits go to differences
+  for (int i = 0; i < rows * columns; ++i) {
+    const float value = map(row + i / columns, column + i % columns);
+    if (std::isnan(value)) continue;
+    reference = value;
+    break;
+  }
+  for (int i = 0; i < kSide; ++i) {
+    for (int j = 0; j < kSide; ++j) {
+      const auto at = static_cast<std::size_t>(i * kSide + j);
+      const bool inside = i < rows && j < columns;
+      present[at] = inside && !std::isnan(map(row + i, column + j));
+      height[at] = present[at] ? map(row + i, column + j) - reference : -kNoHeight;
+      const Eigen::Vector3f normal =
+          present[at] ? surface.normal(row + i, column + j) : Eigen::Vector3f(Eigen::Vector3f::UnitZ());
+      slope_x[at] = -normal.x() / normal.z();
+      slope_y[at] = -normal.y() / normal.z();
+      normal_z[at] = normal.z();
+    }
+  }
+  groups = span_groups(*this, kGroup);
+  wide_groups = span_groups(*this, kWideGroup);
+  windows.resize(static_cast<std::size_t>(rings) + 1);
+  for (int level = 0; level <= rings; ++level) {
+    HeightWindow& window = windows[static_cast<std::size_t>(level)];
+    if (level == 0) {
+      place(window, 0, near_reach(options), row, column);
+      fill_nearest(window, map, surface.tiles(), reference);
+    } else {
+      place(window, level, 2 * options.fineness + 1, row, column);
+      fill_blocks(window, mips, surface, options.peak_share, reference);
+      bound_values(window);
+    }
+  }
+}
+
+float ring_highest(const WalkTile& tile, const std::vector<RingSample>& ring, int level) {
+  const HeightWindow& window = tile.windows[static_cast<std::size_t>(level)];
+  const int wide = window.coarse_width();
+  const auto block = [level](int first, int last, int offset, int origin) {
+    return std::pair{(((first + offset) >> level) - origin) / kCoarse,
+                     (((last + offset) >> level) - origin) / kCoarse};
+  };
+  float highest = kNoHeight;
+  for (const RingSample& sample : ring) {
+    const auto [top, bottom] =
+        block(tile.first_row, tile.first_row + WalkTile::kSide - 1, sample.row, window.first_row);
+    const auto [left, right] =
+        block(tile.first_column, tile.first_column + WalkTile::kSide - 1, sample.column, window.first_column);
+    for (int i = top; i <= bottom; ++i) {
+      for (int j = left; j <= right; ++j)
+        highest = std::max(highest, window.coarse[static_cast<std::size_t>(i * wide + j)]);
+    }
+  }
+  return highest;
+}
+
+}  // namespace heightlight

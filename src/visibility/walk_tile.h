@@ -1,0 +1,91 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "visibility/height_mips.h"
+#include "visibility/walk_table.h"
+
+namespace heightlight {
+
+/// A part of one level of the heights around a tile: what its receivers read there. Blocks are named by their
+/// own row and column of that level, which go on beyond the map's edges.
+struct HeightWindow {
+  int level = 0;
+  int first_row = 0;  ///< block of the window's upper left corner
+  int first_column = 0;
+  int width = 0;  ///< blocks in a row
+  int height = 0;
+  std::vector<float> values;  ///< heights above the tile's reference; kNoHeight where nothing is
+  std::vector<float> coarse;  ///< highest of 8 × 8 values each, ⌈width / 8⌉ per row
+
+  int coarse_width() const { return (width + 7) / 8; }
+};
+
+/// Squares of receivers that look at far things together, and the span of their heights above the tile's
+/// reference. Those that hold no receiver span nothing, at 0.
+struct ReceiverGroups {
+  int side = 0;    ///< receivers in a row of a group
+  int across = 0;  ///< groups in a row of the tile
+  std::vector<float> lowest;
+  std::vector<float> highest;
+};
+
+/// Where a tile of receivers lies in the map.
+struct TileFrame {
+  static constexpr int kSide = 64;  ///< receivers in a row, and rows
+
+  int first_row = 0;  ///< multiples of kSide
+  int first_column = 0;
+  int rows = 0;  ///< inside the map; the rest of the tile is to be ignored
+  int columns = 0;
+};
+
+/// Tiles in a row of a map, and in a column: what covers it.
+struct TileGrid {
+  int across = 0;
+  int down = 0;
+  int width = 0;
+  int height = 0;
+
+  TileGrid(int map_width, int map_height)
+      : across((map_width + TileFrame::kSide - 1) / TileFrame::kSide),
+        down((map_height + TileFrame::kSide - 1) / TileFrame::kSide),
+        width(map_width),
+        height(map_height) {}
+
+  std::int64_t count() const { return std::int64_t{across} * down; }
+  /// The i-th tile, row by row.
+  TileFrame frame(std::int64_t i) const;
+};
+
+/// Receivers of kSide × kSide texels, laid out for vectors, with the heights around them copied from the map:
+/// borders, holes and wrapping are dealt with here, so that walks need not know of them.
+struct WalkTile : TileFrame {
+  static constexpr int kTexels = kSide * kSide;
+  static constexpr int kGroup = 4;
+  static constexpr int kWideGroup = 8;
+
+  // Per receiver, row-major, kSide per row.
+  alignas(64) std::array<float, kTexels> height;  ///< above the tile's reference; −kNoHeight where missing,
+                                                  ///< which sees nothing
+  alignas(64) std::array<float, kTexels> slope_x;  ///< of the plane that the normal stands on, per world unit
+  alignas(64) std::array<float, kTexels> slope_y;
+  alignas(64) std::array<float, kTexels> normal_z;
+  std::array<bool, kTexels> present;
+
+  ReceiverGroups groups;       ///< of kGroup a side
+  ReceiverGroups wide_groups;  ///< of kWideGroup a side
+
+  std::vector<HeightWindow> windows;  ///< [l] of level l, 0 … number of rings
+
+  /// Copies everything that `rings` rings of walks with these options may read. Reuses its memory.
+  void load(const Surface& surface, const HeightMips& mips, const WalkOptions& options, int rings,
+            const TileFrame& frame);
+};
+
+/// Upper bound of the heights, above the tile's reference, that ring l of an azimuth meets from anywhere in a
+/// tile.
+float ring_highest(const WalkTile& tile, const std::vector<RingSample>& ring, int level);
+
+}  // namespace heightlight
