@@ -2,41 +2,31 @@
 
 #include <embree3/rtcore.h>
 
+#include <limits>
+
 #include "heightlight/surface.h"
 #include "visibility/ray_traversal.h"
 
 namespace heightlight {
 
-/// The surface as a triangle mesh in Embree, in grid coordinates: x = column, y = row, z = height ×
-/// `vertical_scale`, which makes heights comparable with texels. Single-threaded at tracing; built as well as
-/// Embree can.
+/// What Embree makes its tree of. A quad is cut into the same two triangles as the surface's cell.
+enum class EmbreePrimitive { triangle, quad };
+
+/// The surface as a mesh in Embree, in grid coordinates: x = column, y = row, z = height × `vertical_scale`,
+/// which makes heights comparable with texels. Single-threaded at tracing.
 class EmbreeMesh {
  public:
-  explicit EmbreeMesh(const Surface& surface)
+  explicit EmbreeMesh(const Surface& surface, EmbreePrimitive primitive = EmbreePrimitive::triangle,
+                      RTCBuildQuality quality = RTC_BUILD_QUALITY_HIGH)
       : vertical_scale_(static_cast<float>(1 / surface.map.spacing.x)) {
     device_ = rtcNewDevice(nullptr);
     scene_ = rtcNewScene(device_);
-    rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_HIGH);
-    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-    const auto columns = static_cast<std::size_t>(surface.width());
-    const auto rows = static_cast<std::size_t>(surface.height());
-    auto* vertex = static_cast<float*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), rows * columns));
-    auto* index =
-        static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                       3 * sizeof(unsigned), 2 * (rows - 1) * (columns - 1)));
-    for (std::size_t i = 0; i < rows * columns; ++i) {
-      *vertex++ = static_cast<float>(i % columns);
-      *vertex++ = static_cast<float>(i / columns);
-      *vertex++ = surface.map.height.values[i] * vertical_scale_;
-    }
-    for (std::size_t row = 0; row + 1 < rows; ++row) {
-      for (std::size_t column = 0; column + 1 < columns; ++column) {
-        const auto here = static_cast<unsigned>(row * columns + column);
-        const auto below = here + static_cast<unsigned>(columns);
-        for (const unsigned corner : {here, here + 1, below + 1, here, below + 1, below}) *index++ = corner;
-      }
-    }
+    rtcSetSceneBuildQuality(scene_, quality);
+    const bool quads = primitive == EmbreePrimitive::quad;
+    RTCGeometry geometry =
+        rtcNewGeometry(device_, quads ? RTC_GEOMETRY_TYPE_QUAD : RTC_GEOMETRY_TYPE_TRIANGLE);
+    fill_vertices(surface, geometry);
+    quads ? fill_quads(surface, geometry) : fill_triangles(surface, geometry);
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene_, geometry);
     rtcReleaseGeometry(geometry);
@@ -72,8 +62,56 @@ class EmbreeMesh {
   }
 
   RTCScene scene() const { return scene_; }
+  float vertical_scale() const { return vertical_scale_; }
 
  private:
+  void fill_vertices(const Surface& surface, RTCGeometry geometry) const {
+    const auto columns = static_cast<std::size_t>(surface.width());
+    const std::size_t vertices = surface.map.height.size();
+    auto* vertex = static_cast<float*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), vertices));
+    for (std::size_t i = 0; i < vertices; ++i) {
+      *vertex++ = static_cast<float>(i % columns);
+      *vertex++ = static_cast<float>(i / columns);
+      *vertex++ = surface.map.height.values[i] * vertical_scale_;
+    }
+  }
+
+  static unsigned* new_indices(RTCGeometry geometry, RTCFormat format, std::size_t corners,
+                               std::size_t count) {
+    return static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, format,
+                                                          corners * sizeof(unsigned), count));
+  }
+
+  static void fill_triangles(const Surface& surface, RTCGeometry geometry) {
+    const auto columns = static_cast<unsigned>(surface.width());
+    unsigned* index = new_indices(geometry, RTC_FORMAT_UINT3, 3, 2 * cell_count(surface));
+    for (unsigned row = 0; row + 1 < static_cast<unsigned>(surface.height()); ++row) {
+      for (unsigned column = 0; column + 1 < columns; ++column) {
+        const unsigned here = row * columns + column;
+        const unsigned below = here + columns;
+        for (const unsigned corner : {here, here + 1, below + 1, here, below + 1, below}) *index++ = corner;
+      }
+    }
+  }
+
+  /// Embree cuts a quad from its second corner to its fourth.
+  static void fill_quads(const Surface& surface, RTCGeometry geometry) {
+    const auto columns = static_cast<unsigned>(surface.width());
+    unsigned* index = new_indices(geometry, RTC_FORMAT_UINT4, 4, cell_count(surface));
+    for (unsigned row = 0; row + 1 < static_cast<unsigned>(surface.height()); ++row) {
+      for (unsigned column = 0; column + 1 < columns; ++column) {
+        const unsigned here = row * columns + column;
+        const unsigned below = here + columns;
+        for (const unsigned corner : {here + 1, here, below, below + 1}) *index++ = corner;
+      }
+    }
+  }
+
+  static std::size_t cell_count(const Surface& surface) {
+    return static_cast<std::size_t>(surface.cell_rows()) * static_cast<std::size_t>(surface.cell_columns());
+  }
+
   float vertical_scale_;
   RTCDevice device_ = nullptr;
   RTCScene scene_ = nullptr;

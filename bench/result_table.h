@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "time_to_error.h"
+
+namespace heightlight {
+
+/// What methods were measured on, and for.
+struct RaceName {
+  std::string quantity;  ///< "sky view factor"
+  std::string map;
+  int size = 0;
+};
+
+/// Collects results, and prints each race's on standard output as they come.
+class ResultTable {
+ public:
+  void add(const RaceName& race, const std::vector<TimeToError>& results);
+
+  /// All of it as comma-separated values. Throws Error when the file cannot be written.
+  void write_csv(const std::string& path) const;
+
+ private:
+  struct Row {
+    RaceName race;
+    TimeToError result;
+    double core_gain;  ///< baseline's core-seconds over this method's; NaN where either misses the target
+    double wall_gain;
+  };
+  std::vector<Row> rows_;
+};
+
+}  // namespace heightlight
