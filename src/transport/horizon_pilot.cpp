@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::int64_t kTiles = 12;
 constexpr int kRows = 8;
-constexpr int kExactPerTile = 16;
+constexpr int kExactPerTile = 20;
 
 double root_mean(double squares, std::size_t count) {
   return count > 0 ? std::sqrt(squares / static_cast<double>(count)) : 0;

@@ -35,8 +35,8 @@ class HorizonPilot {
 
   const Surface& surface() const { return surface_; }
 
-  static constexpr int kExactAzimuths = 64;
-  static constexpr int kManyAzimuths = 256;
+  static constexpr int kExactAzimuths = 48;
+  static constexpr int kManyAzimuths = 160;
 
  private:
   struct ExactReceiver {

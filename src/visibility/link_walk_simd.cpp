@@ -53,8 +53,8 @@ class LinkLanes {
                         (column_ - window.first_column);
     for (std::size_t k = 0; k < azimuth_.walk.near.size(); ++k) {
       const NearSample& sample = azimuth_.walk.near[k];
-      const float* from = here + std::ptrdiff_t{sample.row[0]} * window.width + sample.column[0];
-      const float* to = here + std::ptrdiff_t{sample.row[1]} * window.width + sample.column[1];
+      const float* from = here + sample.offset[0];
+      const float* to = here + sample.offset[1];
       const VF above = hn::MulAdd(hn::Set(kF, sample.weight[1]), hn::LoadU(kF, to),
                                   hn::Mul(hn::Set(kF, sample.weight[0]), hn::LoadU(kF, from)));
       look(hn::NegMulAdd(hn::Set(kF, sample.per_distance), z_, above), sample.way, azimuth_.light.near[k]);
