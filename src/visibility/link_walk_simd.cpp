@@ -104,22 +104,24 @@ class LinkLanes {
     const VF to_normal = hn::Max(hn::MulAdd(c_, to_cosine, hn::Mul(n_z_, to_sine)), zero);
     const VF near_scale = hn::Mul(from_way, to_cosine);
     const VF far_scale = hn::Mul(to_way, cosine_);
-    VF weights = zero;
-    VF weighted = zero;
-    for (const float node : kNodes) {
-      const VF t = hn::Set(kF, node);
+    // Both nodes' weights towards · along / squared² and shares near / (near + far), over one denominator.
+    std::array<VF, 2> weight, near, reach, squares;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const VF t = hn::Set(kF, kNodes[i]);
       const VF along = hn::MulAdd(t, hn::Sub(to_cosine, cosine_), cosine_);
       const VF up = hn::MulAdd(t, hn::Sub(to_sine, from_sine), from_sine);
       const VF squared = hn::MulAdd(along, along, hn::Mul(up, up));
-      const VF towards = hn::MulAdd(t, hn::Sub(to_normal, from_normal), from_normal);
-      const VF weight = hn::Div(hn::Mul(towards, along), hn::Mul(squared, squared));
-      const VF near = hn::Mul(t, near_scale);
-      const VF share = hn::Div(near, hn::MulAdd(hn::Set(kF, 1 - node), far_scale, near));
-      weights = hn::Add(weights, weight);
-      weighted = hn::MulAdd(weight, share, weighted);
+      squares[i] = hn::Mul(squared, squared);
+      weight[i] = hn::Mul(hn::MulAdd(t, hn::Sub(to_normal, from_normal), from_normal), along);
+      near[i] = hn::Mul(t, near_scale);
+      reach[i] = hn::MulAdd(hn::Set(kF, 1 - kNodes[i]), far_scale, near[i]);
     }
-    const auto any = hn::Gt(weights, zero);
-    return hn::IfThenElse(any, hn::Div(weighted, weights), hn::Set(kF, 0.5F));
+    const VF first = hn::Mul(weight[0], squares[1]);
+    const VF second = hn::Mul(weight[1], squares[0]);
+    const VF weighted =
+        hn::MulAdd(hn::Mul(first, near[0]), reach[1], hn::Mul(hn::Mul(second, near[1]), reach[0]));
+    const VF whole = hn::Mul(hn::Add(first, second), hn::Mul(reach[0], reach[1]));
+    return hn::IfThenElse(hn::Gt(whole, zero), hn::Div(weighted, whole), hn::Set(kF, 0.5F));
   }
 
   void give(VF s, hn::Mask<F> rises, float way, const NodeShare& share) {
