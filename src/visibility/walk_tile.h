@@ -39,7 +39,7 @@ struct ReceiverGroups {
 struct TileFrame {
   static constexpr int kSide = kTileSide;
 
-  int first_row = 0;  ///< multiples of kSide
+  int first_row = 0;  ///< a multiple of kWideGroup; whole tiles begin at multiples of kSide
   int first_column = 0;
   int rows = 0;  ///< inside the map; the rest of the tile is to be ignored
   int columns = 0;
