@@ -97,6 +97,7 @@ FormFactors build_exact_form_factors(const Surface& surface, int azimuths, const
 struct HorizonPlan {
   WalkOptions sky;
   WalkOptions links;
+  int link_stride = 1;    ///< links of every stride-th receiver a side; what others see is interpolated
   double sky_error = 0;   ///< RMSE of A expected, from the pilot; 0 where there was none
   double link_error = 0;  ///< RMSE of the total at ρ = 0.8 expected from the links alone
 };
@@ -118,11 +119,17 @@ struct PlannedTransport {
   std::unique_ptr<Transport> transport;
 };
 
-/// Chooses a plan whose RMSE of A, and of the total irradiance at albedos up to 0.8, is about `error` > 0, by
-/// trying ways of walking on a sample of receivers against exact walks; then builds. `azimuths` > 0 fixes
-/// those of the sky. `seed` picks the sample.
-PlannedTransport plan_horizon_transport(const Surface& surface, double error, int azimuths,
-                                        std::uint64_t seed, const HorizonOptions& options);
+/// What a plan is to reach.
+struct HorizonGoal {
+  double error = 0.002;     ///< RMSE > 0 of A, and of the total irradiance at albedos up to 0.8
+  bool total_only = false;  ///< A may err by more, as long as the total does not
+  int azimuths = 0;         ///< > 0: those of the sky, fixed
+  std::uint64_t seed = 1;   ///< of the sample of receivers
+};
+
+/// Chooses a plan by trying ways of walking on a sample of receivers against exact walks; then builds.
+PlannedTransport plan_horizon_transport(const Surface& surface, const HorizonGoal& goal,
+                                        const HorizonOptions& options);
 
 /// What a finished solution errs by, found on a few hundred receivers by exact walks (which share no code
 /// with the fast ones): A against their sky, the total against one exact gather of the same light. What the

@@ -48,8 +48,8 @@ FoundVisibility find_visibility(const Surface& surface, const VisibilityOptions&
     found.transport =
         std::make_unique<FormFactors>(build_exact_form_factors(surface, options.exact_azimuths(), stored));
   } else {
-    PlannedTransport planned =
-        plan_horizon_transport(surface, options.error, options.azimuths, run.seed, {memory, run.quiet});
+    PlannedTransport planned = plan_horizon_transport(
+        surface, {options.error, false, options.azimuths, run.seed}, {memory, run.quiet});
     found.transport = std::move(planned.transport);
     found.plan = planned.plan;
   }

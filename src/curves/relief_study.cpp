@@ -41,7 +41,7 @@ BounceCurves simulate_curves(Heightmap map, int bounces, int bins) {
 }  // namespace
 
 const HorizonPlan& study_plan() {
-  static const HorizonPlan kPlan{{48, 16, 0.3F}, {12, 16, 0.3F}, 0, 0};
+  static const HorizonPlan kPlan{{48, 16, 0.3F}, {12, 16, 0.3F}, 1, 0, 0};
   return kPlan;
 }
 

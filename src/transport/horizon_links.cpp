@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <cmath>
 #include <memory>
 
 #include "core/parallel.h"
@@ -48,7 +47,7 @@ HorizonLinks::HorizonLinks(const Surface& surface, const HeightMips& mips, const
       &progress);
 }
 
-void HorizonLinks::gather(const TexelVector& x, const TexelVector& sky, TexelVector& result) {
+void HorizonLinks::mean_seen(const TexelVector& x, Image<float>& mean) {
   light_.fill(x);
   std::vector<std::unique_ptr<Workspace>> workspaces(static_cast<std::size_t>(thread_count()));
   parallel_for(tiles_.count(), [&](std::int64_t i) {
@@ -62,16 +61,11 @@ void HorizonLinks::gather(const TexelVector& x, const TexelVector& sky, TexelVec
       walk_links(work->tile, azimuths_, work->stream);
       stream = &work->stream;
     }
-    std::array<float, TileFrame::kSide * TileFrame::kSide> mean;
-    replay_links(frame, azimuths_, stream->data(), light_, mean.data());
-    const Image<float>& height = surface_.map.height;
+    std::array<float, TileFrame::kSide * TileFrame::kSide> seen;
+    replay_links(frame, azimuths_, stream->data(), light_, seen.data());
     for (int row = 0; row < frame.rows; ++row) {
-      for (int column = 0; column < frame.columns; ++column) {
-        const std::size_t texel = height.index(frame.first_row + row, frame.first_column + column);
-        const auto at = static_cast<Eigen::Index>(texel);
-        const double seen = mean[static_cast<std::size_t>(row * TileFrame::kSide + column)];
-        result[at] = std::isnan(height.values[texel]) ? 0 : (1 - sky[at]) * seen;
-      }
+      std::copy_n(seen.data() + row * TileFrame::kSide, frame.columns,
+                  &mean(frame.first_row + row, frame.first_column));
     }
   });
 }

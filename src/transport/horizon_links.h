@@ -17,9 +17,10 @@ class HorizonLinks {
   HorizonLinks(const Surface& surface, const HeightMips& mips, const WalkOptions& options,
                std::uint64_t memory, bool quiet);
 
-  /// F x, given the sky's shares: for every receiver, 1 − sky times the mean of `x` over what it sees of the
-  /// surface, weighted by form factors. One that sees nothing of it, though some share is left, sees itself.
-  void gather(const TexelVector& x, const TexelVector& sky, TexelVector& result);
+  /// For every receiver, the mean of `x` over what it sees of the surface, weighted by form factors; its own
+  /// x where it sees nothing. Both per texel, `x` finite everywhere; what stands in `mean` at missing samples
+  /// means nothing.
+  void mean_seen(const TexelVector& x, Image<float>& mean);
 
   std::uint64_t entries() const;
   std::uint64_t bytes() const;

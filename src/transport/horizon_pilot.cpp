@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::int64_t kTiles = 12;
 constexpr int kRows = 8;
-constexpr int kExactPerTile = 16;
+constexpr int kExactPerTile = 20;
 
 double root_mean(double squares, std::size_t count) {
   return count > 0 ? std::sqrt(squares / static_cast<double>(count)) : 0;
@@ -124,6 +124,22 @@ double HorizonPilot::link_error(const WalkOptions& options, const LightMips& lig
                            static_cast<std::size_t>(receiver.row * TileFrame::kSide + receiver.column);
     const double surface_share = 1 - receiver.view.sky_view_factor;
     const double error = surface_share * double{seen[at]} - gather_exactly(receiver.view, x, surface_);
+    squares += error * error;
+  }
+  return root_mean(squares, exact_.size());
+}
+
+double HorizonPilot::gather_error(const TexelVector& x, const TexelVector& gathered,
+                                  const TexelVector& sky) const {
+  double squares = 0;
+  for (const ExactReceiver& receiver : exact_) {
+    const TileFrame& frame = frames_[receiver.frame];
+    const std::int64_t texel = std::int64_t{frame.first_row + receiver.row} * surface_.width() +
+                               frame.first_column + receiver.column;
+    const double exact_share = 1 - receiver.view.sky_view_factor;
+    const double share = 1 - sky[texel];
+    const double seen = share > 0 ? gathered[texel] / share : 0;
+    const double error = exact_share * seen - gather_exactly(receiver.view, x, surface_);
     squares += error * error;
   }
   return root_mean(squares, exact_.size());

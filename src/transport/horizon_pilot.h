@@ -29,8 +29,14 @@ class HorizonPilot {
   /// `light` is filled with x.
   double link_error(const WalkOptions& options, const LightMips& light, const TexelVector& x);
 
-  static constexpr int kExactAzimuths = 64;
-  static constexpr int kManyAzimuths = 256;
+  /// RMSE of a gather of `x`, made with the sky's shares given, against exact ones, where only what is seen
+  /// is in error.
+  double gather_error(const TexelVector& x, const TexelVector& gathered, const TexelVector& sky) const;
+
+  const Surface& surface() const { return surface_; }
+
+  static constexpr int kExactAzimuths = 48;
+  static constexpr int kManyAzimuths = 160;
 
  private:
   struct ExactReceiver {

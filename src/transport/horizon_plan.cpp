@@ -1,5 +1,6 @@
 #include "transport/horizon_plan.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -7,46 +8,91 @@
 namespace heightlight {
 namespace {
 
-/// Share of the error wanted that sampling may take in the sky, and links may take in the total.
-constexpr double kSamplingShare = 0.75;
-constexpr double kLinkShare = 0.7;
+/// Of the error wanted, what a plan aims at: the pilot's sample is small.
+constexpr double kAim = 0.9;
+
+/// Share of the error aimed at that sampling may take in the sky, and links may take in the total.
+constexpr double kSamplingShare = 0.9;
+constexpr double kLinkShare = 0.9;
 
 /// An error of what one gather of the direct light brings becomes one of the total at ρ = 0.8 that is
 /// smaller: the total is the more even field. Measured 0.4 (smooth) to 0.7 (steep bricks).
-constexpr double kTotalPerGather = 0.75;
+constexpr double kTotalPerGather = 0.7;
 
-/// The coarsest walk whose sampling is good enough, with the best share of peaks; else the best one.
-WalkOptions choose_sampling(HorizonPilot& pilot, double error, double& reached) {
+/// Where the total alone is wanted: the share of its error that the sky may take, at albedo kAlbedo, what is
+/// seen having a mean total of kTotalSeen at least (deep joints between bricks: 0.6; open ground: 0.9 and
+/// more).
+constexpr double kSkyShare = 0.7;
+constexpr double kAlbedo = 0.8;
+constexpr double kTotalSeen = 0.75;
+
+/// Azimuths from which an error follows by K^(−3/2), as it does for horizons with jumps.
+constexpr int kTriedAzimuths = 16;
+constexpr double kAzimuthOrder = 1.5;
+
+/// Cost of a walk's azimuth by its fineness, in units of ν: measured 8.2, 10, 16 and 29 ns for ν of 8, 16,
+/// 32, 64.
+double azimuth_cost(int fineness) { return 12 + fineness; }
+
+/// The walk that should reach the error at the least cost, as far as its sampling goes: what that leaves of
+/// the error, azimuths must fill. Where no sampling is good enough, the best.
+WalkOptions choose_sampling(HorizonPilot& pilot, double error, int azimuths, double& reached) {
+  const double tried = pilot.azimuth_error({kTriedAzimuths, 8, 0.3F});
+  const auto azimuths_for = [&](double rest) {
+    return azimuths > 0 ? azimuths : kTriedAzimuths * std::pow(tried / rest, 1 / kAzimuthOrder);
+  };
   WalkOptions best;
-  reached = std::numeric_limits<double>::infinity();
-  for (const int fineness : {8, 16, 32, 64, 128}) {
-    for (const float peak_share : {0.0F, 0.3F, 0.6F}) {
-      const double sampling = pilot.sampling_error(fineness, peak_share);
-      if (sampling >= reached) continue;
-      reached = sampling;
-      best.fineness = fineness;
-      best.peak_share = peak_share;
+  WalkOptions best_sampled;
+  double least = std::numeric_limits<double>::infinity();
+  double least_sampling = least;
+  float share = 0.3F;  // the best so far: finer walks want the same, or more
+  for (const int fineness : {8, 12, 16, 24, 32, 48, 64, 96, 128}) {
+    // A finer walk that had no sampling error at all would not pay any more.
+    if (azimuths_for(error) * azimuth_cost(fineness) >= least) break;
+    double sampling = pilot.sampling_error(fineness, share);
+    for (const float other : {share - 0.3F, share + 0.3F}) {
+      if (other < -0.01F || other > 0.61F) continue;
+      const double found = pilot.sampling_error(fineness, other);
+      if (found >= sampling) continue;
+      sampling = found;
+      share = other;
     }
-    if (reached <= kSamplingShare * error) break;
+    if (sampling < least_sampling) best_sampled = {2, fineness, share};
+    least_sampling = std::min(least_sampling, sampling);
+    if (sampling > kSamplingShare * error) continue;
+    const double cost = azimuths_for(std::sqrt(error * error - sampling * sampling)) * azimuth_cost(fineness);
+    if (cost >= least) break;
+    least = cost;
+    reached = sampling;
+    best = {2, fineness, share};
   }
-  return best;
+  if (std::isfinite(least)) return best;
+  reached = least_sampling;
+  return best_sampled;
 }
 
+/// The fewest azimuths that leave no more than the error, in steps of an eighth, from below the number that a
+/// few tell.
 WalkOptions choose_azimuths(HorizonPilot& pilot, WalkOptions options, double error, double& reached) {
-  for (const int azimuths : {8, 12, 16, 20, 24, 32, 40, 48, 64, 80, 96, 128, 160, 192}) {
+  options.azimuths = kTriedAzimuths;
+  const double tried = pilot.azimuth_error(options);
+  const double guess = 0.8 * kTriedAzimuths * std::pow(tried / error, 1 / kAzimuthOrder);
+  int azimuths = std::clamp(static_cast<int>(guess) / 2 * 2, 4, HorizonPilot::kManyAzimuths);
+  for (;; azimuths += std::max(2, azimuths / 16 * 2)) {
     options.azimuths = azimuths;
     reached = pilot.azimuth_error(options);
-    if (reached <= error) break;
+    if (reached <= error || azimuths >= HorizonPilot::kManyAzimuths) break;
   }
   return options;
 }
 
+/// The cheapest links of all receivers that are good enough, else the best.
 WalkOptions choose_links(HorizonPilot& pilot, const LightMips& light, const TexelVector& direct,
                          float peak_share, double error, double& reached) {
   WalkOptions best;
   reached = std::numeric_limits<double>::infinity();
-  constexpr std::array<std::array<int, 2>, 10> kLadder{
-      {{8, 8}, {8, 16}, {12, 16}, {16, 16}, {12, 32}, {16, 32}, {24, 32}, {32, 32}, {48, 32}, {48, 64}}};
+  constexpr std::array<std::array<int, 2>, 9> kLadder{
+      {{8, 8}, {8, 16}, {12, 16}, {16, 16}, {24, 16}, {16, 32}, {24, 32}, {32, 32}, {48, 32}}};
   for (const auto& [azimuths, fineness] : kLadder) {
     const WalkOptions options{azimuths, fineness, peak_share};
     const double links = kTotalPerGather * pilot.link_error(options, light, direct);
@@ -61,15 +107,17 @@ WalkOptions choose_links(HorizonPilot& pilot, const LightMips& light, const Texe
 
 }  // namespace
 
-HorizonPlan plan_sky(HorizonPilot& pilot, double error, int azimuths) {
+HorizonPlan plan_sky(HorizonPilot& pilot, const HorizonGoal& goal) {
   HorizonPlan plan;
-  if (azimuths > 0) plan.sky.azimuths = azimuths;
+  if (goal.azimuths > 0) plan.sky.azimuths = goal.azimuths;
   if (pilot.empty()) return plan;
+  // The total changes by 1 − ρ × (the mean of the total seen) of what A does, which is about 1 − ρ.
+  const double error = kAim * goal.error * (goal.total_only ? kSkyShare / (1 - kAlbedo * kTotalSeen) : 1);
   double sampling = 0;
   double few = 0;
-  plan.sky = choose_sampling(pilot, error, sampling);
-  if (azimuths > 0) {
-    plan.sky.azimuths = azimuths;
+  plan.sky = choose_sampling(pilot, error, goal.azimuths, sampling);
+  if (goal.azimuths > 0) {
+    plan.sky.azimuths = goal.azimuths;
     few = pilot.azimuth_error(plan.sky);
   } else {
     const double rest = std::sqrt(std::max(error * error - sampling * sampling, 0.25 * error * error));
@@ -79,10 +127,28 @@ HorizonPlan plan_sky(HorizonPilot& pilot, double error, int azimuths) {
   return plan;
 }
 
-void plan_links(HorizonPilot& pilot, const LightMips& light, const TexelVector& direct, double error,
-                HorizonPlan& plan) {
-  if (pilot.empty()) return;
-  plan.links = choose_links(pilot, light, direct, plan.sky.peak_share, error, plan.link_error);
+std::unique_ptr<SeenLight> plan_links(HorizonPilot& pilot, const HeightMips& mips, const TexelVector& direct,
+                                      const HorizonGoal& goal, const HorizonOptions& options,
+                                      HorizonPlan& plan) {
+  const Surface& surface = pilot.surface();
+  plan.links.peak_share = plan.sky.peak_share;
+  if (!pilot.empty()) {
+    for (const int stride : {8, 4, 2}) {
+      if (!ReceiverLattice::fits(surface, stride)) continue;
+      plan.link_stride = stride;
+      plan.links = {12, 8, plan.sky.peak_share};
+      auto light = std::make_unique<SeenLight>(surface, mips, plan, options);
+      TexelVector gathered(direct.size());
+      light->gather(direct, direct, gathered);
+      plan.link_error = kTotalPerGather * pilot.gather_error(direct, gathered, direct);
+      if (plan.link_error <= kLinkShare * kAim * goal.error) return light;
+    }
+    plan.link_stride = 1;
+    LightMips light(surface);
+    light.fill(direct);
+    plan.links = choose_links(pilot, light, direct, plan.sky.peak_share, kAim * goal.error, plan.link_error);
+  }
+  return std::make_unique<SeenLight>(surface, mips, plan, options);
 }
 
 }  // namespace heightlight

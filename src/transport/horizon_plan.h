@@ -1,15 +1,19 @@
 #pragma once
 
+#include <memory>
+
 #include "transport/horizon_pilot.h"
+#include "transport/horizon_transport.h"
 
 namespace heightlight {
 
-/// The sky's part of a plan for an RMSE of A of `error`, the azimuths given where `azimuths` > 0.
-HorizonPlan plan_sky(HorizonPilot& pilot, double error, int azimuths);
+/// The sky's part of a plan.
+HorizonPlan plan_sky(HorizonPilot& pilot, const HorizonGoal& goal);
 
-/// The links' part, once the direct light is known, for an RMSE of the total of `error`. `light` is filled
-/// with it.
-void plan_links(HorizonPilot& pilot, const LightMips& light, const TexelVector& direct, double error,
-                HorizonPlan& plan);
+/// The links' part, once the direct light is known, and the links themselves. Lattices of receivers are tried
+/// first, the coarsest at first: they cost little, and where their error is harmless they are what is kept.
+std::unique_ptr<SeenLight> plan_links(HorizonPilot& pilot, const HeightMips& mips, const TexelVector& direct,
+                                      const HorizonGoal& goal, const HorizonOptions& options,
+                                      HorizonPlan& plan);
 
 }  // namespace heightlight

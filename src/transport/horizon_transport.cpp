@@ -1,10 +1,11 @@
+#include "transport/horizon_transport.h"
+
 #include <cmath>
 #include <string>
 
 #include "core/parallel.h"
 #include "heightlight/error.h"
 #include "heightlight/transport.h"
-#include "transport/horizon_links.h"
 #include "transport/horizon_plan.h"
 #include "visibility/horizon_sky.h"
 
@@ -24,10 +25,8 @@ TexelVector to_vector(const Map& map) {
 
 class HorizonTransport : public Transport {
  public:
-  HorizonTransport(const Surface& surface, HorizonSky sky, const HorizonPlan& plan,
-                   const HorizonOptions& options)
-      : mips_(build_height_mips(surface)),
-        links_(surface, mips_, plan.links, options.memory_limit, options.quiet) {
+  HorizonTransport(HorizonSky sky, std::unique_ptr<HeightMips> mips, std::unique_ptr<SeenLight> light)
+      : mips_(std::move(mips)), light_(std::move(light)) {
     ambient_occlusion = std::move(sky.ambient_occlusion);
     sky_view_factor = std::move(sky.sky_view_factor);
     direct = to_vector(sky_view_factor);
@@ -35,45 +34,65 @@ class HorizonTransport : public Transport {
 
   TexelVector gather(const TexelVector& x) const override {
     TexelVector result(x.size());
-    links_.gather(x, direct, result);
+    light_->gather(x, direct, result);
     return result;
   }
 
   /// Gathers are made in single precision.
   double solver_tolerance() const override { return 1e-6; }
-  std::uint64_t link_count() const override { return links_.entries() * kBlock; }
-  std::uint64_t bytes() const override { return links_.bytes(); }
+  std::uint64_t link_count() const override { return light_->links().entries() * kBlock; }
+  std::uint64_t bytes() const override { return light_->links().bytes(); }
 
  private:
-  HeightMips mips_;
-  mutable HorizonLinks links_;  ///< gathers change nothing but its buffer of light
+  std::unique_ptr<HeightMips> mips_;  ///< which the light refers to
+  std::unique_ptr<SeenLight> light_;  ///< gathers change nothing but its buffers
 };
 
 }  // namespace
+
+SeenLight::SeenLight(const Surface& surface, const HeightMips& mips, const HorizonPlan& plan,
+                     const HorizonOptions& options)
+    : surface_(surface), lattice_(surface, plan.link_stride), mean_(lattice_.width, lattice_.height) {
+  const bool coarse = plan.link_stride > 1;
+  if (coarse) {
+    coarse_ = lattice_surface(surface, lattice_);
+    coarse_mips_ = build_height_mips(coarse_);
+  }
+  links_ = std::make_unique<HorizonLinks>(coarse ? coarse_ : surface, coarse ? coarse_mips_ : mips,
+                                          plan.links, options.memory_limit, options.quiet);
+}
+
+void SeenLight::gather(const TexelVector& x, const TexelVector& sky, TexelVector& result) {
+  if (lattice_.stride > 1) {
+    links_->mean_seen(take_lattice(surface_, lattice_, x), mean_);
+  } else {
+    links_->mean_seen(x, mean_);
+  }
+  spread_lattice(surface_, lattice_, mean_, sky, result);
+}
 
 std::unique_ptr<Transport> build_horizon_transport(const Surface& surface, const HorizonPlan& plan,
                                                    const HorizonOptions& options) {
   check_azimuths(plan.sky.azimuths);
   check_azimuths(plan.links.azimuths);
-  HorizonSky sky = walk_horizon_sky(surface, build_height_mips(surface), plan.sky, options.quiet);
-  return std::make_unique<HorizonTransport>(surface, std::move(sky), plan, options);
+  auto mips = std::make_unique<HeightMips>(build_height_mips(surface));
+  HorizonSky sky = walk_horizon_sky(surface, *mips, plan.sky, options.quiet);
+  auto light = std::make_unique<SeenLight>(surface, *mips, plan, options);
+  return std::make_unique<HorizonTransport>(std::move(sky), std::move(mips), std::move(light));
 }
 
-PlannedTransport plan_horizon_transport(const Surface& surface, double error, int azimuths,
-                                        std::uint64_t seed, const HorizonOptions& options) {
-  if (!(error > 0)) throw UsageError("--error " + std::to_string(error) + ": must be positive");
-  if (azimuths > 0) check_azimuths(azimuths);
+PlannedTransport plan_horizon_transport(const Surface& surface, const HorizonGoal& goal,
+                                        const HorizonOptions& options) {
+  if (!(goal.error > 0)) throw UsageError("--error " + std::to_string(goal.error) + ": must be positive");
+  if (goal.azimuths > 0) check_azimuths(goal.azimuths);
   PlannedTransport planned;
-  HorizonPilot pilot(surface, seed);
-  planned.plan = plan_sky(pilot, error, azimuths);
-  HorizonSky sky = walk_horizon_sky(surface, build_height_mips(surface), planned.plan.sky, options.quiet);
-  {
-    const TexelVector direct = to_vector(sky.sky_view_factor);
-    LightMips light(surface);
-    light.fill(direct);
-    plan_links(pilot, light, direct, error, planned.plan);
-  }
-  planned.transport = std::make_unique<HorizonTransport>(surface, std::move(sky), planned.plan, options);
+  HorizonPilot pilot(surface, goal.seed);
+  planned.plan = plan_sky(pilot, goal);
+  auto mips = std::make_unique<HeightMips>(build_height_mips(surface));
+  HorizonSky sky = walk_horizon_sky(surface, *mips, planned.plan.sky, options.quiet);
+  std::unique_ptr<SeenLight> light =
+      plan_links(pilot, *mips, to_vector(sky.sky_view_factor), goal, options, planned.plan);
+  planned.transport = std::make_unique<HorizonTransport>(std::move(sky), std::move(mips), std::move(light));
   return planned;
 }
 

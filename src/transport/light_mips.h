@@ -12,8 +12,8 @@ namespace heightlight {
 /// One level of a field over square blocks of samples, with a margin on all sides: what lies beyond the map's
 /// edges is there already, so that reading needs no care.
 struct LightLevel {
-  static constexpr int kMargin = 80;  ///< on the left and right; above and below kRowMargin
-  static constexpr int kRowMargin = 40;
+  static constexpr int kMargin = 112;  ///< on the left and right; above and below kRowMargin
+  static constexpr int kRowMargin = 72;
 
   int width = 0;  ///< blocks, without margins
   int height = 0;

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/hash.h"
+#include "core/parallel.h"
 #include "core/progress.h"
 #include "heightlight/transport.h"
 
@@ -21,60 +23,84 @@ double conserved(double sum, double last, double albedo, double power) {
   return loss > 0 ? power * left * (1 - ratio) / loss : power * left;
 }
 
+/// Calls body(i) for all texels, on all threads.
+template <class Body>
+void for_texels(const Transport& transport, Body&& body) {
+  const std::int64_t width = transport.sky_view_factor.width;
+  parallel_for(transport.sky_view_factor.height, [&](std::int64_t row) {
+    for (std::int64_t i = row * width; i < (row + 1) * width; ++i) body(i);
+  });
+}
+
+/// Receivers by which convergence is judged: all of a small map, some of a large one.
+std::vector<Eigen::Index> pick_judges(const Transport& transport) {
+  constexpr std::size_t kMost = 8192;
+  const std::size_t texels = transport.sky_view_factor.size();
+  std::vector<Eigen::Index> judges;
+  for (std::size_t i = 0; i < std::min(kMost, texels); ++i) {
+    const auto texel = static_cast<Eigen::Index>(texels <= kMost ? i : scramble(i) % texels);
+    if (!is_missing(transport, texel)) judges.push_back(texel);
+  }
+  return judges;
+}
+
+/// RMS over the judges of how bounce `next`, just gathered, changes the total that conservation foretold
+/// without it.
+double total_change(const std::vector<Eigen::Index>& judges, const TexelVector& sum, const TexelVector& last,
+                    const TexelVector& gathered, double albedo, int next) {
+  const double power = std::pow(albedo, next);
+  double squares = 0;
+  for (const Eigen::Index i : judges) {
+    const double before = conserved(sum[i], last[i], albedo, power);
+    const double after =
+        power * gathered[i] + conserved(sum[i] + gathered[i], gathered[i], albedo, power * albedo);
+    squares += (after - before) * (after - before);
+  }
+  return judges.empty() ? 0 : std::sqrt(squares / static_cast<double>(judges.size()));
+}
+
 }  // namespace
 
 TexelVector conserve_tail(const Transport& transport, const TexelVector& sum, const TexelVector& last,
                           int bounces, double albedo) {
   const double power = std::pow(albedo, bounces + 1);
   TexelVector tail(sum.size());
-  for (Eigen::Index i = 0; i < sum.size(); ++i) {
+  for_texels(transport, [&](Eigen::Index i) {
     tail[i] = is_missing(transport, i) ? 0 : conserved(sum[i], last[i], albedo, power);
-  }
+  });
   return tail;
 }
 
 TotalIrradiance solve_totals(const Transport& transport, const std::vector<double>& albedos, double tolerance,
                              bool quiet) {
   Progress progress("bounces", 0, quiet);
+  const std::vector<Eigen::Index> judges = pick_judges(transport);
+  TotalIrradiance result;
+  result.totals.assign(albedos.size(), transport.direct);
   TexelVector last = transport.direct;
   TexelVector sum = last;
-  TotalIrradiance result;
-  std::vector<TexelVector> weighted(albedos.size(), last);
-  double receivers = 0;
-  for (Eigen::Index i = 0; i < sum.size(); ++i) receivers += is_missing(transport, i) ? 0 : 1;
-  for (result.bounces = 0;; ++result.bounces) {
-    // The totals as they would be without and with the bounce at hand: their difference tells when to stop.
-    result.change = 0;
-    const int next = result.bounces + 1;
+  do {
+    const int next = ++result.bounces;
     TexelVector gathered = transport.gather(last);
-    for (std::size_t a = 0; a < albedos.size(); ++a) {
-      const double power = std::pow(albedos[a], next);
-      double squares = 0;
-      for (Eigen::Index i = 0; i < sum.size(); ++i) {
-        if (is_missing(transport, i)) continue;
-        const double before = conserved(sum[i], last[i], albedos[a], power);
-        const double after = power * gathered[i] +
-                             conserved(sum[i] + gathered[i], gathered[i], albedos[a], power * albedos[a]);
-        squares += (after - before) * (after - before);
-        weighted[a][i] += power * gathered[i];
-      }
-      result.change = std::max(result.change, receivers > 0 ? std::sqrt(squares / receivers) : 0);
+    result.change = 0;
+    for (const double albedo : albedos) {
+      result.change = std::max(result.change, total_change(judges, sum, last, gathered, albedo, next));
     }
-    sum += gathered;
+    std::vector<double> powers;
+    for (const double albedo : albedos) powers.push_back(std::pow(albedo, next));
+    for_texels(transport, [&](Eigen::Index i) {
+      sum[i] += gathered[i];
+      for (std::size_t a = 0; a < powers.size(); ++a) result.totals[a][i] += powers[a] * gathered[i];
+    });
     last.swap(gathered);
     progress.add(1);
-    if (result.change <= tolerance || next == kMostBounces) {
-      result.bounces = next;
-      break;
-    }
-  }
+  } while (result.change > tolerance && result.bounces < kMostBounces);
   for (std::size_t a = 0; a < albedos.size(); ++a) {
     const double power = std::pow(albedos[a], result.bounces + 1);
-    for (Eigen::Index i = 0; i < sum.size(); ++i) {
-      if (!is_missing(transport, i)) weighted[a][i] += conserved(sum[i], last[i], albedos[a], power);
-    }
+    for_texels(transport, [&](Eigen::Index i) {
+      if (!is_missing(transport, i)) result.totals[a][i] += conserved(sum[i], last[i], albedos[a], power);
+    });
   }
-  result.totals = std::move(weighted);
   return result;
 }
 

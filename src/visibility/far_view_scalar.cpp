@@ -43,7 +43,7 @@ void look_far_scalar(const WalkTile& tile, const AzimuthTable& azimuth, FarView&
   const int rings = static_cast<int>(azimuth.rings.size());
   const ReceiverGroups& wide = tile.wide_groups;
   const ReceiverGroups& groups = tile.groups;
-  for (int wide_row = 0; wide_row < wide.across; ++wide_row) {
+  for (int wide_row = 0; wide_row * wide.side < tile.rows; ++wide_row) {
     for (int wide_column = 0; wide_column < wide.across; ++wide_column) {
       const auto w = static_cast<std::size_t>(wide_row * wide.across + wide_column);
       const int row = tile.first_row + wide_row * wide.side + wide.side / 2;

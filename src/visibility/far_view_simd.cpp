@@ -99,7 +99,7 @@ void look_far_lanes(const WalkTile& tile, const AzimuthTable& azimuth, FarView& 
   const int rings = static_cast<int>(azimuth.rings.size());
   const int lanes = static_cast<int>(hn::Lanes(kF));
   const ReceiverGroups& wide = tile.wide_groups;
-  for (int row = 0; row < wide.across; ++row) {
+  for (int row = 0; row * wide.side < tile.rows; ++row) {
     for (int column = 0; column < wide.across; column += lanes) {
       Envelopes shared(wide, static_cast<std::size_t>(row * wide.across + column));
       for (int ring = kWideGroupRing; ring <= rings; ++ring) {

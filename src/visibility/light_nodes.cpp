@@ -7,8 +7,8 @@ namespace heightlight {
 namespace {
 
 /// Way of the last near node, and nodes an octave beyond it.
-int near_way(const WalkOptions& options) { return options.fineness; }
-int per_octave(const WalkOptions& options) { return options.fineness / 2; }
+int near_way(const WalkOptions& options) { return 2 * options.fineness; }
+int per_octave(const WalkOptions& options) { return options.fineness; }
 
 /// The receiver and the walk's samples up to kNearWay.
 void add_near_nodes(const AzimuthTable& walk, int way, LightTable& table) {
@@ -25,7 +25,8 @@ void add_near_nodes(const AzimuthTable& walk, int way, LightTable& table) {
 }
 
 void add_far_nodes(const GridDirection& g, int octave, double farthest, LightTable& table) {
-  for (int level = 1; std::ldexp(octave, level) <= farthest; ++level) {
+  const auto fits = [&] { return table.nodes.size() + static_cast<std::size_t>(octave) <= kMostNodes; };
+  for (int level = 1; std::ldexp(octave, level) <= farthest && fits(); ++level) {
     for (int i = 0; i < octave; ++i) {
       const double t = std::ldexp(octave + i + 0.5, level);
       LightNode node;

@@ -33,9 +33,12 @@ struct NodeShare {
   bool splits = false;
 };
 
+/// Nodes of an azimuth, so that a byte names one. What lies beyond the last goes to that.
+constexpr std::size_t kMostNodes = 256;
+
 /// What links of one azimuth look at.
 struct LightTable {
-  std::vector<LightNode> nodes;               ///< at most 256; by rising way, level 0 first
+  std::vector<LightNode> nodes;               ///< at most kMostNodes; by rising way, level 0 first
   int near_nodes = 0;                         ///< of level 0
   std::vector<NodeShare> near;                ///< per near sample of the walk
   std::vector<std::vector<NodeShare>> rings;  ///< per sample of each ring

@@ -33,6 +33,9 @@ constexpr float kQuantum = 80;
 /// (ray_traversal.h).
 constexpr float kOwnFacet = 2.0F / 3;
 
+/// A rise of the slope by less than this is left for the next sample to see, together with its own.
+constexpr float kLeastRise = 0.01F;
+
 /// Nodes of the quadrature of two on [0, 1], Gauss and Legendre's.
 constexpr float kNodes[] = {0.21132487F, 0.78867513F};
 

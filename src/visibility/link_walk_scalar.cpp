@@ -7,7 +7,7 @@
 namespace heightlight {
 namespace {
 
-using NodeWeights = std::array<float, 256>;
+using NodeWeights = std::array<float, kMostNodes>;
 
 float value_at(const HeightWindow& window, int row, int column) {
   return window.values[static_cast<std::size_t>((row - window.first_row) * window.width + column -
@@ -47,7 +47,7 @@ struct LinkWalker {
   }
 
   void look(float s, float way, const NodeShare& share, NodeWeights& weights) {
-    if (s > slope) {
+    if (s > slope + kLeastRise) {
       const float q = 1 / (1 + s * s);
       const float mass_above = mass(s, q);
       const float weight = mass_above - seen;

@@ -17,22 +17,23 @@
 HWY_BEFORE_NAMESPACE();
 namespace heightlight::HWY_NAMESPACE {
 
-constexpr std::size_t kMostNodes = 256;
-
-/// Weights of a block's receivers, node by node.
+/// Weights of a block's receivers, node by node, all 0 but where `touched` says so.
 struct BlockWeights {
-  HWY_ALIGN float weight[kMostNodes][kBlock];
+  HWY_ALIGN float weight[kMostNodes][kBlock] = {};
+  std::uint8_t touched[kMostNodes] = {};
 };
 
 /// One vector of receivers on its walk along one azimuth.
 class LinkLanes {
  public:
-  LinkLanes(const WalkTile& tile, const LinkAzimuth& azimuth, int row, int column, float* weights)
+  LinkLanes(const WalkTile& tile, const LinkAzimuth& azimuth, int row, int column, BlockWeights& weights,
+            int lane)
       : tile_(tile),
         azimuth_(azimuth),
         row_(tile.first_row + row),
         column_(tile.first_column + column),
-        weights_(weights) {
+        weights_(&weights.weight[0][lane]),
+        touched_(weights.touched) {
     const auto at = static_cast<std::size_t>(row * WalkTile::kSide + column);
     n_z_ = hn::Load(kF, tile.normal_z.data() + at);
     z_ = hn::Load(kF, tile.height.data() + at);
@@ -52,8 +53,8 @@ class LinkLanes {
                         (column_ - window.first_column);
     for (std::size_t k = 0; k < azimuth_.walk.near.size(); ++k) {
       const NearSample& sample = azimuth_.walk.near[k];
-      const float* from = here + std::ptrdiff_t{sample.row[0]} * window.width + sample.column[0];
-      const float* to = here + std::ptrdiff_t{sample.row[1]} * window.width + sample.column[1];
+      const float* from = here + sample.offset[0];
+      const float* to = here + sample.offset[1];
       const VF above = hn::MulAdd(hn::Set(kF, sample.weight[1]), hn::LoadU(kF, to),
                                   hn::Mul(hn::Set(kF, sample.weight[0]), hn::LoadU(kF, from)));
       look(hn::NegMulAdd(hn::Set(kF, sample.per_distance), z_, above), sample.way, azimuth_.light.near[k]);
@@ -88,7 +89,7 @@ class LinkLanes {
   VF mass(VF m, VF q) const { return hn::NegMulAdd(n_z_, q, hn::Mul(c_, hn::MulAdd(m, q, arc_tangent(m)))); }
 
   void look(VF s, float way, const NodeShare& share) {
-    const auto rises = hn::Gt(s, slope_);
+    const auto rises = hn::Gt(s, hn::Add(slope_, hn::Set(kF, kLeastRise)));
     if (!hn::AllFalse(kF, rises)) give(s, rises, way, share);
     slope_before_ = s;
     way_before_ = way;
@@ -103,22 +104,24 @@ class LinkLanes {
     const VF to_normal = hn::Max(hn::MulAdd(c_, to_cosine, hn::Mul(n_z_, to_sine)), zero);
     const VF near_scale = hn::Mul(from_way, to_cosine);
     const VF far_scale = hn::Mul(to_way, cosine_);
-    VF weights = zero;
-    VF weighted = zero;
-    for (const float node : kNodes) {
-      const VF t = hn::Set(kF, node);
+    // Both nodes' weights towards · along / squared² and shares near / (near + far), over one denominator.
+    std::array<VF, 2> weight, near, reach, squares;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const VF t = hn::Set(kF, kNodes[i]);
       const VF along = hn::MulAdd(t, hn::Sub(to_cosine, cosine_), cosine_);
       const VF up = hn::MulAdd(t, hn::Sub(to_sine, from_sine), from_sine);
       const VF squared = hn::MulAdd(along, along, hn::Mul(up, up));
-      const VF towards = hn::MulAdd(t, hn::Sub(to_normal, from_normal), from_normal);
-      const VF weight = hn::Div(hn::Mul(towards, along), hn::Mul(squared, squared));
-      const VF near = hn::Mul(t, near_scale);
-      const VF share = hn::Div(near, hn::MulAdd(hn::Set(kF, 1 - node), far_scale, near));
-      weights = hn::Add(weights, weight);
-      weighted = hn::MulAdd(weight, share, weighted);
+      squares[i] = hn::Mul(squared, squared);
+      weight[i] = hn::Mul(hn::MulAdd(t, hn::Sub(to_normal, from_normal), from_normal), along);
+      near[i] = hn::Mul(t, near_scale);
+      reach[i] = hn::MulAdd(hn::Set(kF, 1 - kNodes[i]), far_scale, near[i]);
     }
-    const auto any = hn::Gt(weights, zero);
-    return hn::IfThenElse(any, hn::Div(weighted, weights), hn::Set(kF, 0.5F));
+    const VF first = hn::Mul(weight[0], squares[1]);
+    const VF second = hn::Mul(weight[1], squares[0]);
+    const VF weighted =
+        hn::MulAdd(hn::Mul(first, near[0]), reach[1], hn::Mul(hn::Mul(second, near[1]), reach[0]));
+    const VF whole = hn::Mul(hn::Add(first, second), hn::Mul(reach[0], reach[1]));
+    return hn::IfThenElse(hn::Gt(whole, zero), hn::Div(weighted, whole), hn::Set(kF, 0.5F));
   }
 
   void give(VF s, hn::Mask<F> rises, float way, const NodeShare& share) {
@@ -128,7 +131,9 @@ class LinkLanes {
     const VF to_cosine = hn::Sqrt(q);
     const VF weight = hn::IfThenElseZero(rises, hn::Sub(mass_above, seen_));
     float* node = weights_ + std::ptrdiff_t{share.node} * kBlock;
+    touched_[share.node] = 1;
     if (share.splits) {
+      touched_[share.node + 1] = 1;
       VF next = hn::Set(kF, kOwnFacet);
       if (way_before_ > 0) {
         const VF before = hn::Set(kF, way_before_);
@@ -154,23 +159,27 @@ class LinkLanes {
   const LinkAzimuth& azimuth_;
   int row_, column_;
   float* weights_;  ///< of the vector's first receiver and node 0
+  std::uint8_t* touched_;
   VF c_, n_z_, z_, slope_, cosine_, seen_, slope_before_;
   float way_before_ = 0;
 };
 
-/// Rounds a block's weights to steps and appends the entries that have any.
-void append_entries(const LinkAzimuth& azimuth, const BlockWeights& weights, float* carry,
+/// Rounds a block's weights to steps, appends the entries that have any, and clears the weights.
+void append_entries(const LinkAzimuth& azimuth, BlockWeights& weights, float* carry,
                     std::vector<std::uint8_t>& stream) {
   const std::size_t nodes = azimuth.light.nodes.size();
-  const std::size_t counts = stream.size();
-  stream.resize(counts + 2 + nodes * kEntryBytes);
-  std::uint8_t* out = stream.data() + counts + 2;
+  std::uint8_t entries[2 + kMostNodes * kEntryBytes];
+  entries[0] = entries[1] = 0;
+  std::uint8_t* out = entries + 2;
   const hn::Rebind<std::uint8_t, F> bytes;
   for (std::size_t node = 0; node < nodes; ++node) {
+    if (weights.touched[node] == 0) continue;
+    weights.touched[node] = 0;
     auto any = hn::Zero(kI);
     for (std::size_t lane = 0; lane < kBlock; lane += hn::Lanes(kF)) {
       const VF weight = hn::MulAdd(hn::Load(kF, weights.weight[node] + lane), hn::Set(kF, kQuantum),
                                    hn::Load(kF, carry + lane));
+      hn::Store(hn::Zero(kF), kF, weights.weight[node] + lane);
       const VI steps = hn::Min(hn::Max(hn::NearestInt(weight), hn::Zero(kI)), hn::Set(kI, 255));
       hn::Store(hn::Sub(weight, hn::ConvertTo(kF, steps)), kF, carry + lane);
       hn::StoreU(hn::DemoteTo(bytes, steps), bytes, out + 1 + lane);
@@ -179,9 +188,9 @@ void append_entries(const LinkAzimuth& azimuth, const BlockWeights& weights, flo
     if (hn::AllTrue(kI, hn::Eq(any, hn::Zero(kI)))) continue;
     out[0] = static_cast<std::uint8_t>(node);
     out += kEntryBytes;
-    ++stream[counts + (static_cast<int>(node) < azimuth.light.near_nodes ? 0 : 1)];
+    ++entries[static_cast<int>(node) < azimuth.light.near_nodes ? 0 : 1];
   }
-  stream.resize(static_cast<std::size_t>(out - stream.data()));
+  stream.insert(stream.end(), entries, out);
 }
 
 void walk_links_lanes(const WalkTile& tile, const std::vector<LinkAzimuth>& azimuths,
@@ -201,9 +210,8 @@ void walk_links_lanes(const WalkTile& tile, const std::vector<LinkAzimuth>& azim
       HWY_ALIGN std::array<float, kBlock> carry{};
       for (std::size_t k = 0; k < azimuths.size(); ++k) {
         const LinkAzimuth& azimuth = azimuths[k];
-        std::fill_n(&weights.weight[0][0], azimuth.light.nodes.size() * kBlock, 0.0F);
         for (int lane = 0; lane < kBlock; lane += lanes) {
-          LinkLanes walk(tile, azimuth, row, column + lane, &weights.weight[0][lane]);
+          LinkLanes walk(tile, azimuth, row, column + lane, weights, lane);
           walk.walk_near();
           for (std::size_t ring = 0; ring < rings; ++ring) {
             const float nearest = azimuth.walk.rings[ring].front().per_distance;

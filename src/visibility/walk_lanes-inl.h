@@ -100,8 +100,8 @@ class LaneWalk {
                         std::ptrdiff_t{tile_.first_row + bunch.row - window.first_row} * window.width +
                         (tile_.first_column + bunch.column - window.first_column);
     for (const NearSample& sample : azimuth_.near) {
-      const float* from = here + std::ptrdiff_t{sample.row[0]} * window.width + sample.column[0];
-      const float* to = here + std::ptrdiff_t{sample.row[1]} * window.width + sample.column[1];
+      const float* from = here + sample.offset[0];
+      const float* to = here + sample.offset[1];
       const VF from_weight = hn::Set(kF, sample.weight[0]);
       const VF to_weight = hn::Set(kF, sample.weight[1]);
       const VF per_distance = hn::Set(kF, sample.per_distance);

@@ -115,6 +115,8 @@ void check_azimuths(int azimuths) {
                    std::to_string(kMostAzimuths));
 }
 
+int near_window_width(const WalkOptions& options) { return kTileSide + 2 + 2 * near_reach(options); }
+
 int near_reach(const WalkOptions& options) { return 2 * options.fineness + 1; }
 
 int ring_count(const Surface& surface, const WalkOptions& options) {
@@ -138,6 +140,10 @@ AzimuthTable make_azimuth_table(const Surface& surface, const WalkOptions& optio
   table.along_column = static_cast<float>(g.u * g.length);
   table.along_row = static_cast<float>(g.v * g.length);
   table.near = near_samples(g, options.fineness);
+  for (NearSample& sample : table.near) {
+    for (int s = 0; s < 2; ++s)
+      sample.offset[s] = sample.row[s] * near_window_width(options) + sample.column[s];
+  }
   const int rings = ring_count(surface, options);
   for (int level = 1; level <= rings; ++level) {
     table.rings.push_back(ring_samples(g, options.fineness, level));

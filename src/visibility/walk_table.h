@@ -21,6 +21,9 @@
 
 namespace heightlight {
 
+/// Receivers in a row of a tile, and rows: tiles are what is walked at once.
+constexpr int kTileSide = 64;
+
 /// The surface at an edge of the mesh, between two samples given by their offsets from the receiver's.
 struct NearSample {
   float way = 0;  ///< t
@@ -28,6 +31,7 @@ struct NearSample {
   int column[2] = {0, 0};
   float weight[2] = {0, 0};  ///< of each sample, over the world distance: they sum to `per_distance`
   float per_distance = 0;    ///< 1 / (t ℓ)
+  int offset[2] = {0, 0};    ///< of each sample from the receiver's, in the tile's window of the heights
 };
 
 /// The place that a ring looks at, rounded to a sample: whole texels from the receiver's.
@@ -58,6 +62,9 @@ struct AzimuthTable {
   std::vector<NearSample> near;                ///< by rising way
   std::vector<std::vector<RingSample>> rings;  ///< rings[l − 1] is ring l
 };
+
+/// Samples in a row of the window that near samples are read from: `offset` above counts in it.
+int near_window_width(const WalkOptions& options);
 
 /// Texels beside a tile that its near samples reach.
 int near_reach(const WalkOptions& options);

@@ -33,7 +33,7 @@ struct ReceiverGroups {
 
 /// Where a tile of receivers lies in the map.
 struct TileFrame {
-  static constexpr int kSide = 64;  ///< receivers in a row, and rows
+  static constexpr int kSide = kTileSide;
 
   int first_row = 0;  ///< multiples of kSide
   int first_column = 0;
