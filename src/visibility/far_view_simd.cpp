@@ -94,6 +94,8 @@ HWY_INLINE void look_from_children(const WalkTile& tile, const AzimuthTable& azi
 }
 
 void look_far_lanes(const WalkTile& tile, const AzimuthTable& azimuth, FarView& view) {
+  // A vector holds the children of a wide group in pairs.
+  if constexpr (hn::MaxLanes(kF) < 2) return look_far_scalar(tile, azimuth, view);
   const int rings = static_cast<int>(azimuth.rings.size());
   const int lanes = static_cast<int>(hn::Lanes(kF));
   const ReceiverGroups& wide = tile.wide_groups;

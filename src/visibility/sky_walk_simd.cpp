@@ -18,6 +18,8 @@ HWY_BEFORE_NAMESPACE();
 namespace heightlight::HWY_NAMESPACE {
 
 void walk_sky_lanes(const WalkTile& tile, const AzimuthTable& azimuth, const FarView& far, SkySums& sums) {
+  // A vector spans whole groups.
+  if constexpr (hn::MaxLanes(kF) < WalkTile::kGroup) return walk_sky_scalar(tile, azimuth, far, sums);
   const LaneWalk walk(tile, azimuth, far);
   const VF one = hn::Set(kF, 1.0F);
   const VF steep = hn::Set(kF, 1 / (1 + kSteep * kSteep));
