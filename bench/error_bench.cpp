@@ -68,10 +68,17 @@ void print_bias(const Method& method, const Reference& reference) {
               rmse(values, reference.values), sum / static_cast<double>(values.size()));
 }
 
-/// What is found out.
+/// What is found out, and where it goes.
 struct Tables {
   ResultTable results;
+  std::string csv;                   ///< empty: nowhere but to standard output
   std::optional<CurveTable> curves;  ///< where they are wanted
+  std::string curve_csv;
+
+  void write() const {
+    if (!csv.empty()) results.write_csv(csv);
+    if (curves) curves->write_csv(curve_csv);
+  }
 };
 
 void race(Tables& tables, const RaceName& name, const std::vector<Method>& methods, const Surface& surface,
@@ -84,7 +91,7 @@ void race(Tables& tables, const RaceName& name, const std::vector<Method>& metho
   }
   tables.results.add(name, results);
   if (!tables.curves) return;
-  // Baselines end where the last target is reached, the others when they are twice as good.
+  // What traces rays ends where the last target is reached, walks when they are twice as good.
   for (const Method& method : methods) {
     const double least_error = targets.back() * (method.run_map && !method.is_baseline ? 0.5 : 1);
     tables.curves->add(name, error_curve(method, surface, reference, least_error));
@@ -146,6 +153,8 @@ void run(const Options& options) {
       "%d threads\n",
       thread_count());
   Tables tables;
+  tables.csv = options.csv;
+  tables.curve_csv = options.curve;
   if (!options.curve.empty()) tables.curves.emplace();
   for (const std::string& map : options.maps) {
     if (!make_bench_map(map, options.sizes.front())) {
@@ -157,10 +166,9 @@ void run(const Options& options) {
       const Surface surface = build_surface(make_bench_map(map, size).value());
       if (options.section != "total") race_sky(tables, map, surface);
       if (options.section != "a") race_total(tables, map, surface);
+      tables.write();
     }
   }
-  if (!options.csv.empty()) tables.results.write_csv(options.csv);
-  if (tables.curves) tables.curves->write_csv(options.curve);
 }
 
 }  // namespace
