@@ -70,7 +70,17 @@ void HorizonLinks::mean_seen(const TexelVector& x, Image<float>& mean) {
   });
 }
 
-std::uint64_t HorizonLinks::entries() const { return bytes() / kEntryBytes; }
+std::uint64_t HorizonLinks::entries() const {
+  std::uint64_t bytes = 0;
+  for (std::int64_t i = 0; i < tiles_.count(); ++i) {
+    const std::vector<std::uint8_t>& stream = streams_[static_cast<std::size_t>(i)];
+    if (stream.empty()) continue;
+    const TileFrame frame = tiles_.frame(i);
+    const int blocks = frame.rows * ((frame.columns + kBlock - 1) / kBlock);
+    bytes += stream.size() - static_cast<std::size_t>(blocks) * azimuths_.size() * kCountBytes;
+  }
+  return bytes / kEntryBytes;
+}
 
 std::uint64_t HorizonLinks::bytes() const {
   std::uint64_t bytes = 0;

@@ -24,6 +24,9 @@ namespace heightlight {
 constexpr int kBlock = 16;
 constexpr int kEntryBytes = 1 + kBlock;
 
+/// Bytes before the entries of an azimuth: how many there are.
+constexpr int kCountBytes = 2;
+
 /// Steps in a weight of 1. The largest, a wall that fills a slice and all of whose light comes from one node,
 /// is π.
 constexpr float kQuantum = 80;
