@@ -152,7 +152,8 @@ TEST_CASE("the link walk's lanes and its scalar twin tell the same light on ever
   });
 }
 
-TEST_CASE("steps of links sum to what the sky's walk leaves of the hemisphere", "[visibility][links]") {
+TEST_CASE("steps of links sum to what the sky's walk leaves of the hemisphere, to a step per azimuth",
+          "[visibility][links]") {
   const auto [name, map] = ground(GENERATE(range(0, 10)));
   // So fine that all but the farthest things are looked at by each receiver, as links are walked; so many
   // azimuths that Σ S(m₀) = K to exp(−K asinh(1/kSteep)) = 10⁻⁵ where the sky's walk takes it to be K.
@@ -172,8 +173,11 @@ TEST_CASE("steps of links sum to what the sky's walk leaves of the hemisphere", 
       const double expected = double{kQuantum} * double{sums.full[at] - sums.sky[at]};
       worst = std::max(worst, std::fabs(expected - steps[at]));
     });
-    INFO(name << ": " << worst << " steps");
-    CHECK(worst < 2);  // half a step is left over at the end; the rest is the shared far view (measured: 1.3)
+    INFO(name << ": " << worst << " steps apart");
+    // A step per azimuth: a last rise of less than kLeastRise goes unseen, kQuantum kLeastRise |S'| steps
+    // with |S'| ≤ 0.65 over level ground; and links see what the shared far view misses (measured: 0.45 per
+    // azimuth).
+    CHECK(worst < options.azimuths);
   });
 }
 
