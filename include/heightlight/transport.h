@@ -70,6 +70,9 @@ struct FormFactors : Transport {
       ray_weights;  ///< form factor of each ray, per table; empty for exact walks
   std::vector<LinkRow> rows;
 
+  FormFactors() = default;
+  FormFactors(int map_width, int map_height);  ///< without links, nothing known of the sky
+
   TexelVector gather(const TexelVector& x) const override;
   double solver_tolerance() const override { return 1e-8; }
   std::uint64_t link_count() const override;

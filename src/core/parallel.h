@@ -2,6 +2,7 @@
 
 #include <omp.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <exception>
@@ -25,7 +26,9 @@ template <class Body>
 void parallel_for(std::int64_t count, Body&& body, Progress* progress = nullptr) {
   std::exception_ptr failure;
   std::atomic<bool> stop{false};
-#pragma omp parallel for schedule(dynamic, 1)
+  // No more threads than there is work: those left over would only wait, and burn a processor meanwhile.
+  const auto threads = static_cast<int>(std::clamp<std::int64_t>(count, 1, thread_count()));
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
   for (std::int64_t i = 0; i < count; ++i) {
     if (stop.load(std::memory_order_relaxed) || is_interrupted()) continue;
     try {

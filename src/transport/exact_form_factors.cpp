@@ -68,13 +68,7 @@ FormFactors build_exact_form_factors(const Surface& surface, int azimuths, const
                 format_byte_size(options.memory_limit) +
                 " that --memory leaves for them: use fewer --azimuths, an --error above 0, or more memory");
   }
-  FormFactors form_factors;
-  form_factors.width = surface.width();
-  form_factors.height = surface.height();
-  form_factors.ambient_occlusion = Map(surface.width(), surface.height());
-  form_factors.sky_view_factor = Map(surface.width(), surface.height());
-  form_factors.direct = TexelVector::Zero(static_cast<Eigen::Index>(surface.map.height.size()));
-  form_factors.rows.resize(static_cast<std::size_t>(surface.height()));
+  FormFactors form_factors(surface.width(), surface.height());
   Progress progress("visibility", surface.height(), options.quiet);
   parallel_for(
       surface.height(),

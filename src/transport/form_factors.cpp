@@ -72,6 +72,13 @@ void fill_row(const Surface& surface, const RayCaster& caster, int row, FormFact
 
 }  // namespace
 
+FormFactors::FormFactors(int map_width, int map_height) : width(map_width), height(map_height) {
+  ambient_occlusion = Map(width, height);
+  sky_view_factor = Map(width, height);
+  direct = TexelVector::Zero(std::int64_t{width} * height);
+  rows.resize(static_cast<std::size_t>(height));
+}
+
 std::uint64_t FormFactors::link_count() const {
   std::uint64_t count = 0;
   for (const LinkRow& row : rows) count += row.links.size();
@@ -95,14 +102,8 @@ FormFactors build_form_factors(const Surface& surface, const FormFactorOptions& 
   const double texels = static_cast<double>(surface.map.height.size());
   check_memory(static_cast<std::uint64_t>(receiver_bytes * texels), options, surface);
 
-  FormFactors form_factors;
-  form_factors.width = surface.width();
-  form_factors.height = surface.height();
-  form_factors.ambient_occlusion = Map(surface.width(), surface.height());
-  form_factors.sky_view_factor = Map(surface.width(), surface.height());
-  form_factors.direct = TexelVector::Zero(static_cast<Eigen::Index>(surface.map.height.size()));
+  FormFactors form_factors(surface.width(), surface.height());
   form_factors.ray_weights.assign(caster.directions().weight.begin(), caster.directions().weight.end());
-  form_factors.rows.resize(static_cast<std::size_t>(surface.height()));
   std::atomic<std::uint64_t> taken{0};
   Progress progress("visibility", surface.height(), options.quiet);
   parallel_for(

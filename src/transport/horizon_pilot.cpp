@@ -14,9 +14,25 @@
 namespace heightlight {
 namespace {
 
-constexpr std::int64_t kTiles = 12;
+constexpr std::int64_t kStrips = 12;
 constexpr int kRows = 8;
-constexpr int kExactPerTile = 20;
+constexpr int kExactPerStrip = 20;
+
+/// All tiles, in strips of kRows rows.
+std::vector<TileFrame> cut_strips(const Surface& surface) {
+  const TileGrid tiles(surface.width(), surface.height());
+  std::vector<TileFrame> strips;
+  for (std::int64_t i = 0; i < tiles.count(); ++i) {
+    const TileFrame tile = tiles.frame(i);
+    for (int row = 0; row < tile.rows; row += kRows) {
+      TileFrame strip = tile;
+      strip.first_row += row;
+      strip.rows = std::min(kRows, tile.rows - row);
+      strips.push_back(strip);
+    }
+  }
+  return strips;
+}
 
 double root_mean(double squares, std::size_t count) {
   return count > 0 ? std::sqrt(squares / static_cast<double>(count)) : 0;
@@ -26,23 +42,22 @@ double root_mean(double squares, std::size_t count) {
 
 HorizonPilot::HorizonPilot(const Surface& surface, std::uint64_t seed)
     : surface_(surface), mips_(build_height_mips(surface)) {
-  const TileGrid tiles(surface.width(), surface.height());
-  const std::int64_t wanted = std::min(kTiles, tiles.count());
+  const std::vector<TileFrame> strips = cut_strips(surface);
+  const auto count = static_cast<std::int64_t>(strips.size());
+  const std::int64_t wanted = std::min(kStrips, count);
   for (std::int64_t i = 0; i < wanted; ++i) {
     // One from each of as many equal parts of the map.
-    const std::int64_t begin = tiles.count() * i / wanted;
-    const std::int64_t end = tiles.count() * (i + 1) / wanted;
+    const std::int64_t begin = count * i / wanted;
+    const std::int64_t end = count * (i + 1) / wanted;
     const std::uint64_t pick = hash_combine(seed, static_cast<std::uint64_t>(i));
-    TileFrame frame =
-        tiles.frame(begin + static_cast<std::int64_t>(pick % static_cast<std::uint64_t>(end - begin)));
-    frame.rows = std::min(frame.rows, kRows);
-    frames_.push_back(frame);
+    frames_.push_back(strips[static_cast<std::size_t>(
+        begin + static_cast<std::int64_t>(pick % static_cast<std::uint64_t>(end - begin)))]);
   }
   const ExactWalker walker(surface, kExactAzimuths);
-  std::vector<ExactReceiver> receivers(frames_.size() * kExactPerTile);
+  std::vector<ExactReceiver> receivers(frames_.size() * kExactPerStrip);
   parallel_for(static_cast<std::int64_t>(receivers.size()), [&](std::int64_t i) {
     ExactReceiver& receiver = receivers[static_cast<std::size_t>(i)];
-    receiver.frame = static_cast<std::size_t>(i) / kExactPerTile;
+    receiver.frame = static_cast<std::size_t>(i) / kExactPerStrip;
     const TileFrame& frame = frames_[receiver.frame];
     const std::uint64_t pick = hash_combine(seed + 1, static_cast<std::uint64_t>(i)) %
                                static_cast<std::uint64_t>(frame.rows * frame.columns);

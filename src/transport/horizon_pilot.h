@@ -11,8 +11,8 @@
 
 namespace heightlight {
 
-/// Receivers on which ways of walking are tried before the whole map is walked: the first rows of some tiles,
-/// and among them some that are walked exactly too.
+/// Receivers on which ways of walking are tried before the whole map is walked: strips of tiles, and among
+/// them some that are walked exactly too.
 class HorizonPilot {
  public:
   HorizonPilot(const Surface& surface, std::uint64_t seed);
@@ -40,18 +40,18 @@ class HorizonPilot {
 
  private:
   struct ExactReceiver {
-    std::size_t frame;  ///< index of its tile
-    int row;            ///< in the tile
+    std::size_t frame;  ///< index of its strip
+    int row;            ///< in the strip
     int column;
     SliceView view;
   };
 
-  /// A of all receivers of the pilot, tile by tile.
+  /// A of all receivers of the pilot, strip by strip.
   std::vector<float> walk_sky_of(const WalkOptions& options);
 
   const Surface& surface_;
   HeightMips mips_;
-  std::vector<TileFrame> frames_;  ///< cut to the rows that are tried
+  std::vector<TileFrame> frames_;  ///< the strips
   std::vector<ExactReceiver> exact_;
   WalkOptions many_options_;
   std::vector<float> many_;  ///< A by kManyAzimuths, made when first asked for

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "transport/horizon_pilot.h"
-#include "transport/horizon_transport.h"
+#include "transport/seen_light.h"
 
 namespace heightlight {
 

@@ -1,5 +1,3 @@
-#include "transport/horizon_transport.h"
-
 #include <cmath>
 #include <string>
 
@@ -7,6 +5,7 @@
 #include "heightlight/error.h"
 #include "heightlight/transport.h"
 #include "transport/horizon_plan.h"
+#include "transport/seen_light.h"
 #include "visibility/horizon_sky.h"
 
 namespace heightlight {
@@ -49,27 +48,6 @@ class HorizonTransport : public Transport {
 };
 
 }  // namespace
-
-SeenLight::SeenLight(const Surface& surface, const HeightMips& mips, const HorizonPlan& plan,
-                     const HorizonOptions& options)
-    : surface_(surface), lattice_(surface, plan.link_stride), mean_(lattice_.width, lattice_.height) {
-  const bool coarse = plan.link_stride > 1;
-  if (coarse) {
-    coarse_ = lattice_surface(surface, lattice_);
-    coarse_mips_ = build_height_mips(coarse_);
-  }
-  links_ = std::make_unique<HorizonLinks>(coarse ? coarse_ : surface, coarse ? coarse_mips_ : mips,
-                                          plan.links, options.memory_limit, options.quiet);
-}
-
-void SeenLight::gather(const TexelVector& x, const TexelVector& sky, TexelVector& result) {
-  if (lattice_.stride > 1) {
-    links_->mean_seen(take_lattice(surface_, lattice_, x), mean_);
-  } else {
-    links_->mean_seen(x, mean_);
-  }
-  spread_lattice(surface_, lattice_, mean_, sky, result);
-}
 
 std::unique_ptr<Transport> build_horizon_transport(const Surface& surface, const HorizonPlan& plan,
                                                    const HorizonOptions& options) {

@@ -9,11 +9,6 @@ namespace {
 
 using NodeWeights = std::array<float, kMostNodes>;
 
-float value_at(const HeightWindow& window, int row, int column) {
-  return window.values[static_cast<std::size_t>((row - window.first_row) * window.width + column -
-                                                window.first_column)];
-}
-
 /// One receiver's walk along one azimuth.
 struct LinkWalker {
   float c, n_z, z;
@@ -89,17 +84,16 @@ void walk(const WalkTile& tile, const LinkAzimuth& azimuth, int i, int j, NodeWe
   for (std::size_t k = 0; k < azimuth.walk.near.size(); ++k) {
     const NearSample& sample = azimuth.walk.near[k];
     const HeightWindow& window = tile.windows[0];
-    const float weighted =
-        sample.weight[0] * value_at(window, row + sample.row[0], column + sample.column[0]) +
-        sample.weight[1] * value_at(window, row + sample.row[1], column + sample.column[1]);
+    const float weighted = sample.weight[0] * window.at(row + sample.row[0], column + sample.column[0]) +
+                           sample.weight[1] * window.at(row + sample.row[1], column + sample.column[1]);
     walker.look(weighted - sample.per_distance * walker.z, sample.way, azimuth.light.near[k], weights);
   }
   for (std::size_t ring = 0; ring < azimuth.walk.rings.size(); ++ring) {
     const int level = static_cast<int>(ring) + 1;
     for (std::size_t k = 0; k < azimuth.walk.rings[ring].size(); ++k) {
       const RingSample& sample = azimuth.walk.rings[ring][k];
-      const float height = value_at(tile.windows[static_cast<std::size_t>(level)],
-                                    (row + sample.row) >> level, (column + sample.column) >> level);
+      const float height = tile.windows[static_cast<std::size_t>(level)].at(
+          (row + sample.row) >> level, (column + sample.column) >> level);
       walker.look((height - walker.z) * sample.per_distance, sample.way, azimuth.light.rings[ring][k],
                   weights);
     }

@@ -9,11 +9,6 @@ namespace {
 
 constexpr float kHalfPi = std::numbers::pi_v<float> / 2;
 
-float value_at(const HeightWindow& window, int row, int column) {
-  return window.values[static_cast<std::size_t>((row - window.first_row) * window.width + column -
-                                                window.first_column)];
-}
-
 /// Slope of the horizon seen from the receiver in row i and column j of the tile, at least `tangent`.
 float horizon_slope(const WalkTile& tile, const AzimuthTable& azimuth, const FarView& far, int i, int j,
                     float tangent) {
@@ -23,14 +18,13 @@ float horizon_slope(const WalkTile& tile, const AzimuthTable& azimuth, const Far
   float slope = tangent;
   for (const NearSample& sample : azimuth.near) {
     const HeightWindow& window = tile.windows[0];
-    const float weighted =
-        sample.weight[0] * value_at(window, row + sample.row[0], column + sample.column[0]) +
-        sample.weight[1] * value_at(window, row + sample.row[1], column + sample.column[1]);
+    const float weighted = sample.weight[0] * window.at(row + sample.row[0], column + sample.column[0]) +
+                           sample.weight[1] * window.at(row + sample.row[1], column + sample.column[1]);
     slope = std::max(slope, weighted - sample.per_distance * z);
   }
   if (!azimuth.rings.empty()) {
     for (const RingSample& sample : azimuth.rings[0]) {
-      const float height = value_at(tile.windows[1], (row + sample.row) >> 1, (column + sample.column) >> 1);
+      const float height = tile.windows[1].at((row + sample.row) >> 1, (column + sample.column) >> 1);
       slope = std::max(slope, (height - z) * sample.per_distance);
     }
   }

@@ -20,6 +20,10 @@ struct HeightWindow {
   std::vector<float> coarse;  ///< highest of 8 × 8 values each, ⌈width / 8⌉ per row
 
   int coarse_width() const { return (width + 7) / 8; }
+  /// Height of a block that lies in the window.
+  float at(int row, int column) const {
+    return values[static_cast<std::size_t>((row - first_row) * width + column - first_column)];
+  }
 };
 
 /// Squares of receivers that look at far things together, and the span of their heights above the tile's
@@ -35,7 +39,7 @@ struct ReceiverGroups {
 struct TileFrame {
   static constexpr int kSide = kTileSide;
 
-  int first_row = 0;  ///< multiples of kSide
+  int first_row = 0;  ///< a multiple of kWideGroup; whole tiles begin at multiples of kSide
   int first_column = 0;
   int rows = 0;  ///< inside the map; the rest of the tile is to be ignored
   int columns = 0;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "transport/horizon_links.h"
 #include "transport/receiver_lattice.h"
 
