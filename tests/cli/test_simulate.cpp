@@ -97,6 +97,49 @@ TEST_CASE("simulate gives the same files for any number of threads", "[cli]") {
   }
 }
 
+TEST_CASE("simulate walks horizons unless told otherwise, and says what that reached", "[cli]") {
+  const ScratchFolder folder;
+  REQUIRE(run_command("synth brick -o b.png --size 96", folder).exit_code == 0);
+  REQUIRE(run_command("simulate b.png -o out --albedo 0.8 --error 0.004", folder).exit_code == 0);
+  const nlohmann::json summary = read_summary(folder / "out");
+  check_energy(summary);
+  const nlohmann::json& visibility = summary["visibility"];
+  CHECK(visibility["method"] == "horizon");
+  CHECK(visibility["azimuths"].get<int>() > 0);
+  CHECK(visibility["rays"].is_null());
+  CHECK(visibility["checked"]["receivers"].get<int>() > 100);
+  // Monte Carlo: the pilot's sample against the check's; half as much again as was wanted
+  CHECK(visibility["checked"]["sky_view_factor_rmse"].get<double>() < 1.5 * 0.004);
+  CHECK(visibility["checked"]["total_rmse"].get<double>() < 1.5 * 0.004);
+  CHECK(visibility["rmse_estimate"] == visibility["checked"]["sky_view_factor_rmse"]);
+}
+
+TEST_CASE("an error of 0 means exact slices, whose energy balances, and rays are the reference", "[cli]") {
+  const ScratchFolder folder;
+  REQUIRE(run_command("synth brick -o b.png --size 40", folder).exit_code == 0);
+  REQUIRE(run_command("simulate b.png -o exact --error 0 --azimuths 32", folder).exit_code == 0);
+  REQUIRE(run_command("simulate b.png -o rays --visibility rays", folder).exit_code == 0);
+  const nlohmann::json exact = read_summary(folder / "exact");
+  const nlohmann::json rays = read_summary(folder / "rays");
+  check_energy(exact);
+  check_energy(rays);
+  CHECK(exact["visibility"]["azimuths"] == 32);
+  CHECK(rays["visibility"]["method"] == "rays");
+  CHECK(rays["visibility"]["rays"] == 300);
+}
+
+TEST_CASE("links walked again for lack of memory give the same files", "[cli]") {
+  const ScratchFolder folder;
+  REQUIRE(run_command("synth brick -o b.png --size 192", folder).exit_code == 0);
+  REQUIRE(run_command("simulate b.png -o kept", folder).exit_code == 0);
+  REQUIRE(run_command("simulate b.png -o again --memory 9M", folder).exit_code == 0);
+  CHECK(read_summary(folder / "again")["links"]["bytes"].get<std::uint64_t>() <
+        read_summary(folder / "kept")["links"]["bytes"].get<std::uint64_t>());
+  for (const char* name : {"sky_view_factor.exr", "irradiance_total.exr", "curves.csv"}) {
+    CHECK((read_text(folder / "kept" / name) == read_text(folder / "again" / name)));
+  }
+}
+
 TEST_CASE("an albedo image is decoded from sRGB and scales the light that it sends on", "[cli]") {
   const ScratchFolder folder;
   REQUIRE(run_command("synth trench -o t.png --size 24", folder).exit_code == 0);
