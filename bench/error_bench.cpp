@@ -9,11 +9,14 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench_map.h"
 #include "embree_methods.h"
+#include "horizon_method.h"
 #include "ray_methods.h"
 #include "result_table.h"
 #include "sky_reference.h"
@@ -28,10 +31,13 @@ constexpr double kAlbedo = 0.8;
 std::vector<Method> sky_methods(const Surface& surface, const EmbreeBest& embree) {
   std::vector<Method> methods = embree_sky_methods(surface, embree);
   methods.push_back(ray_sky_method(surface));
+  for (Method& method : horizon_sky_methods(surface)) methods.push_back(std::move(method));
   return methods;
 }
 
-std::vector<Method> total_methods(const Surface& surface) { return {ray_total_method(surface, kAlbedo)}; }
+std::vector<Method> total_methods(const Surface& surface) {
+  return {ray_total_method(surface, kAlbedo), horizon_total_method(surface, kAlbedo)};
+}
 
 void print_embree_ways(const EmbreeBest& best) {
   std::printf("Embree's ways: core-ns per ray, %d rays per texel\n%-26s", kEmbreeTrialRays, "");
@@ -62,18 +68,37 @@ void print_bias(const Method& method, const Reference& reference) {
               rmse(values, reference.values), sum / static_cast<double>(values.size()));
 }
 
-void race(ResultTable& table, const RaceName& name, const std::vector<Method>& methods,
-          const Surface& surface, const Reference& reference, const std::vector<double>& targets) {
+/// What is found out, and where it goes.
+struct Tables {
+  ResultTable results;
+  std::string csv;                   ///< empty: nowhere but to standard output
+  std::optional<CurveTable> curves;  ///< where they are wanted
+  std::string curve_csv;
+
+  void write() const {
+    if (!csv.empty()) results.write_csv(csv);
+    if (curves) curves->write_csv(curve_csv);
+  }
+};
+
+void race(Tables& tables, const RaceName& name, const std::vector<Method>& methods, const Surface& surface,
+          const Reference& reference, const std::vector<double>& targets) {
   std::vector<TimeToError> results;
   for (const Method& method : methods) {
     for (const TimeToError& result : time_to_error(method, surface, reference, targets)) {
       results.push_back(result);
     }
   }
-  table.add(name, results);
+  tables.results.add(name, results);
+  if (!tables.curves) return;
+  // What traces rays ends where the last target is reached, walks when they are twice as good.
+  for (const Method& method : methods) {
+    const double least_error = targets.back() * (method.run_map && !method.is_baseline ? 0.5 : 1);
+    tables.curves->add(name, error_curve(method, surface, reference, least_error));
+  }
 }
 
-void race_sky(ResultTable& table, const std::string& map, const Surface& surface) {
+void race_sky(Tables& tables, const std::string& map, const Surface& surface) {
   constexpr int kReceivers = 1024;
   std::printf("\n== sky view factor A, %s, %d ==\n", map.c_str(), surface.width());
   const SkyReference sky = make_sky_reference(surface, kReceivers);
@@ -82,7 +107,7 @@ void race_sky(ResultTable& table, const std::string& map, const Surface& surface
   print_embree_ways(embree);
   const std::vector<Method> methods = sky_methods(surface, embree);
   print_bias(methods.front(), sky.reference);
-  race(table, {"sky view factor", map, surface.width()}, methods, surface, sky.reference, {0.002, 0.001});
+  race(tables, {"sky view factor", map, surface.width()}, methods, surface, sky.reference, {0.002, 0.001});
 }
 
 /// The reference for totals once more, from other rays and twice as many per texel, where that is cheap.
@@ -99,7 +124,7 @@ void print_total_reference_error(const std::string& map) {
               map.c_str(), kSize, rmse(reference.values, other.values));
 }
 
-void race_total(ResultTable& table, const std::string& map, const Surface& surface) {
+void race_total(Tables& tables, const std::string& map, const Surface& surface) {
   TotalReferenceOptions options;
   options.albedo = kAlbedo;
   std::printf("\n== total irradiance / π at albedo %g, all bounces, %s, %d ==\n", kAlbedo, map.c_str(),
@@ -107,7 +132,7 @@ void race_total(ResultTable& table, const std::string& map, const Surface& surfa
   const Reference reference = make_total_reference(surface, options);
   std::printf("reference: %d receivers, 65536 rays each, over a field of %d rays per texel\n",
               options.receivers, options.field_rays);
-  race(table, {"total irradiance", map, surface.width()}, total_methods(surface), surface, reference,
+  race(tables, {"total irradiance", map, surface.width()}, total_methods(surface), surface, reference,
        {0.005});
 }
 
@@ -116,6 +141,7 @@ struct Options {
   std::vector<int> sizes{512, 1024};
   std::string section = "both";
   std::string csv;
+  std::string curve;
 };
 
 void run(const Options& options) {
@@ -126,7 +152,10 @@ void run(const Options& options) {
       "*: timed on rows from all over the map, and multiplied\n"
       "%d threads\n",
       thread_count());
-  ResultTable table;
+  Tables tables;
+  tables.csv = options.csv;
+  tables.curve_csv = options.curve;
+  if (!options.curve.empty()) tables.curves.emplace();
   for (const std::string& map : options.maps) {
     if (!make_bench_map(map, options.sizes.front())) {
       std::printf("\n%s is not there: left out\n", map.c_str());
@@ -135,11 +164,11 @@ void run(const Options& options) {
     if (options.section != "a") print_total_reference_error(map);
     for (const int size : options.sizes) {
       const Surface surface = build_surface(make_bench_map(map, size).value());
-      if (options.section != "total") race_sky(table, map, surface);
-      if (options.section != "a") race_total(table, map, surface);
+      if (options.section != "total") race_sky(tables, map, surface);
+      if (options.section != "a") race_total(tables, map, surface);
+      tables.write();
     }
   }
-  if (!options.csv.empty()) table.write_csv(options.csv);
 }
 
 }  // namespace
@@ -158,6 +187,7 @@ int main(int argument_count, char** arguments) {
     app.add_option("--section", options.section, "a (sky view factor), total, or both")
         ->check(CLI::IsMember({"a", "total", "both"}));
     app.add_option("--csv", options.csv, "file for the results");
+    app.add_option("--curve", options.curve, "file for all settings' errors and times");
     CLI11_PARSE(app, argument_count, arguments);
     heightlight::run(options);
   } catch (const std::exception& error) {

@@ -16,11 +16,12 @@ namespace heightlight {
 /// enough to be timed on the whole map; a method that has only `run_receivers` is timed on rows of it.
 struct Method {
   std::string name;
-  std::string parameter;            ///< what the setting counts: "rays"
-  std::vector<int> settings;        ///< to be tried, cheapest first; settings between them are fair too
-  int granularity = 1;              ///< settings between them are rounded up to its multiples
-  bool is_baseline = false;         ///< others are compared with the cheapest of these
-  Cost built;                       ///< what making it for the surface took, whatever the setting
+  std::string parameter;      ///< what the setting counts: "rays"
+  std::vector<int> settings;  ///< to be tried, cheapest first; settings between them are fair too
+  int granularity = 1;        ///< settings between them are rounded up to its multiples
+  std::function<int(double)> setting_for;  ///< where settings ask for an error: the one that asks for it
+  bool is_baseline = false;                ///< others are compared with the cheapest of these
+  Cost built;                              ///< what making it for the surface took, whatever the setting
   std::function<void(int)> set_up;  ///< readies it for a setting; timed apart. Empty where all is in the run
   std::function<Map(int)> run_map;
   std::function<std::vector<float>(int, const Receivers&)> run_receivers;

@@ -34,14 +34,14 @@ std::string format_ratio(double ratio) {
 double share_of_others(const Cost& cost) { return cost.wall > 0 ? cost.others / cost.wall : 0; }
 
 void print_head() {
-  std::printf("%-6s %-24s %-12s %9s %8s %8s %8s %6s %9s %9s\n", "RMSE", "method", "setting", "measured",
+  std::printf("%-6s %-26s %-14s %9s %8s %8s %8s %6s %9s %9s\n", "RMSE", "method", "setting", "measured",
               "set-up", "core-s", "wall-s", "others", "core gain", "wall gain");
 }
 
 void print_row(const TimeToError& result, double core_gain, double wall_gain) {
   const std::string setting = std::to_string(result.setting) + " " + result.parameter;
   const Cost total = result.total();
-  std::printf("%-6g %-24s %-12s %9.5f %8.3f %8.3f %8.3f %6.2f %9s %9s%s%s\n", result.target,
+  std::printf("%-6g %-26s %-14s %9.5f %8.3f %8.3f %8.3f %6.2f %9s %9s%s%s\n", result.target,
               result.method.c_str(), setting.c_str(), result.rmse, result.set_up.core, total.core, total.wall,
               share_of_others(total), format_ratio(core_gain).c_str(), format_ratio(wall_gain).c_str(),
               result.extrapolated ? " *" : "", result.reached ? "" : " not reached");
@@ -83,6 +83,27 @@ void ResultTable::write_csv(const std::string& path) const {
          << r.set_up.core << ',' << total.core << ',' << total.wall << ',' << total.others << ','
          << row.core_gain << ',' << row.wall_gain << ',' << r.extrapolated << ',' << r.run.wall << ','
          << r.run_by_one_thread.wall << '\n';
+  }
+  file.close();
+  if (!file) throw Error(path + ": could not be written");
+}
+
+void CurveTable::add(const RaceName& race, const std::vector<CurvePoint>& curve) {
+  for (const CurvePoint& point : curve) rows_.push_back({race, point});
+}
+
+void CurveTable::write_csv(const std::string& path) const {
+  std::ofstream file(path);
+  file << "quantity,map,size,method,parameter,setting,rmse,set_up_core_s,core_s,core_s_per_megatexel,wall_s,"
+          "others_core_s,extrapolated\n";
+  for (const Row& row : rows_) {
+    const CurvePoint& p = row.point;
+    const Cost total = p.total();
+    const double megatexels = 1e-6 * row.race.size * row.race.size;
+    file << row.race.quantity << ',' << row.race.map << ',' << row.race.size << ",\"" << p.method << "\","
+         << p.parameter << ',' << p.setting << ',' << p.rmse << ',' << p.set_up.core << ',' << total.core
+         << ',' << total.core / megatexels << ',' << total.wall << ',' << total.others << ','
+         << p.extrapolated << '\n';
   }
   file.close();
   if (!file) throw Error(path + ": could not be written");

@@ -19,7 +19,7 @@ class ResultTable {
  public:
   void add(const RaceName& race, const std::vector<TimeToError>& results);
 
-  /// All of it as comma-separated values. Throws Error when the file cannot be written.
+  /// Results as comma-separated values. Throws Error when the file cannot be written.
   void write_csv(const std::string& path) const;
 
  private:
@@ -28,6 +28,22 @@ class ResultTable {
     TimeToError result;
     double core_gain;  ///< baseline's core-seconds over this method's; NaN where either misses the target
     double wall_gain;
+  };
+  std::vector<Row> rows_;
+};
+
+/// Collects whole curves of error against time.
+class CurveTable {
+ public:
+  void add(const RaceName& race, const std::vector<CurvePoint>& curve);
+
+  /// Points as comma-separated values. Throws Error when the file cannot be written.
+  void write_csv(const std::string& path) const;
+
+ private:
+  struct Row {
+    RaceName race;
+    CurvePoint point;
   };
   std::vector<Row> rows_;
 };

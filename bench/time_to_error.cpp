@@ -29,9 +29,9 @@ double measure_error(const Method& method, int setting, const Reference& referen
 /// A method's runs, and their share in the whole map.
 class TimedRun {
  public:
-  TimedRun(const Method& method, const Surface& surface) : method_(method) {
+  TimedRun(const Method& method, const Surface& surface, int rows = kRows) : method_(method) {
     if (method.run_map) return;
-    rows_ = row_receivers(surface, kRows);
+    rows_ = row_receivers(surface, rows);
     factor_ = static_cast<double>(surface.map.height.size()) / static_cast<double>(rows_.size());
   }
 
@@ -94,6 +94,18 @@ Rung cheapest_rung(const Method& method, const Reference& reference, const std::
   }
 }
 
+/// The setting that asks for the target, or the first that asks for less and reaches it. The last tried where
+/// none does.
+Rung asked_rung(const Method& method, const Reference& reference, double target) {
+  constexpr double kStep = 1.1;
+  double setting = method.setting_for(target);
+  for (;; setting *= kStep) {
+    Rung rung{static_cast<int>(std::lround(setting)), 0};
+    rung.rmse = measure_error(method, rung.setting, reference);
+    if (rung.rmse <= target || setting > method.settings.back()) return rung;
+  }
+}
+
 Cost one_thread_cost(const TimedRun& run, int setting) {
   const int threads = thread_count();
   set_thread_count(1);
@@ -106,11 +118,13 @@ Cost one_thread_cost(const TimedRun& run, int setting) {
 
 std::vector<TimeToError> time_to_error(const Method& method, const Surface& surface,
                                        const Reference& reference, const std::vector<double>& targets) {
-  const std::vector<Rung> rungs = climb(method, reference, targets.back());
+  std::vector<Rung> rungs;
+  if (!method.setting_for) rungs = climb(method, reference, targets.back());
   const TimedRun run(method, surface);
   std::vector<TimeToError> results;
   for (const double target : targets) {
-    const Rung rung = cheapest_rung(method, reference, rungs, target);
+    const Rung rung = method.setting_for ? asked_rung(method, reference, target)
+                                         : cheapest_rung(method, reference, rungs, target);
     const Cost set_up_cost = least_cost([&] { set_up(method, rung.setting); });
     TimeToError result;
     result.method = method.name;
@@ -127,6 +141,25 @@ std::vector<TimeToError> time_to_error(const Method& method, const Surface& surf
     results.push_back(result);
   }
   return results;
+}
+
+std::vector<CurvePoint> error_curve(const Method& method, const Surface& surface, const Reference& reference,
+                                    double least_error) {
+  constexpr int kCurveRows = 8;  // a picture shows no difference
+  const TimedRun run(method, surface, kCurveRows);
+  std::vector<CurvePoint> curve;
+  for (const Rung& rung : climb(method, reference, least_error)) {
+    CurvePoint point;
+    point.method = method.name;
+    point.parameter = method.parameter;
+    point.setting = rung.setting;
+    point.rmse = rung.rmse;
+    point.extrapolated = run.extrapolates();
+    point.set_up = method.built + least_cost([&] { set_up(method, rung.setting); });
+    point.run = run.cost(rung.setting);
+    curve.push_back(point);
+  }
+  return curve;
 }
 
 }  // namespace heightlight

@@ -30,8 +30,26 @@ struct TimeToError {
   Cost total() const { return set_up + run; }
 };
 
-/// Finds, for each of the `targets` (falling), the cheapest setting that reaches it, and what it costs.
+/// Finds, for each of the `targets` (falling), the cheapest setting that reaches it, and what it costs. A
+/// method that is told an error is told the target first; where it misses, it is asked for ever less.
 std::vector<TimeToError> time_to_error(const Method& method, const Surface& surface,
                                        const Reference& reference, const std::vector<double>& targets);
+
+/// A method with one of its settings.
+struct CurvePoint {
+  std::string method;
+  std::string parameter;
+  int setting = 0;
+  double rmse = 0;
+  bool extrapolated = false;
+  Cost set_up;
+  Cost run;
+
+  Cost total() const { return set_up + run; }
+};
+
+/// All of the method's settings, up to the first that comes closer to the reference than `least_error`.
+std::vector<CurvePoint> error_curve(const Method& method, const Surface& surface, const Reference& reference,
+                                    double least_error);
 
 }  // namespace heightlight

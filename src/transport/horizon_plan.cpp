@@ -91,8 +91,17 @@ WalkOptions choose_links(HorizonPilot& pilot, const LightMips& light, const Texe
                          float peak_share, double error, double& reached) {
   WalkOptions best;
   reached = std::numeric_limits<double>::infinity();
-  constexpr std::array<std::array<int, 2>, 9> kLadder{
-      {{8, 8}, {8, 16}, {12, 16}, {16, 16}, {24, 16}, {16, 32}, {24, 32}, {32, 32}, {48, 32}}};
+  constexpr std::array<std::array<int, 2>, 11> kLadder{{{8, 8},
+                                                        {8, 12},
+                                                        {8, 16},
+                                                        {12, 16},
+                                                        {16, 16},
+                                                        {24, 16},
+                                                        {16, 24},
+                                                        {24, 24},
+                                                        {24, 32},
+                                                        {32, 32},
+                                                        {48, 32}}};
   for (const auto& [azimuths, fineness] : kLadder) {
     const WalkOptions options{azimuths, fineness, peak_share};
     const double links = kTotalPerGather * pilot.link_error(options, light, direct);

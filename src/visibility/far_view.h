@@ -30,8 +30,9 @@ struct FarView {
   static constexpr int kLines = 3;
   static constexpr int kGroups = (WalkTile::kSide / WalkTile::kGroup) * (WalkTile::kSide / WalkTile::kGroup);
 
-  alignas(64) std::array<std::array<float, kGroups>, kLines> height;
-  alignas(64) std::array<std::array<float, kGroups>, kLines> per_distance;
+  // Padded, since vectors are read whole where a part is wanted.
+  alignas(64) std::array<std::array<float, kGroups + kReadPadding>, kLines> height{};
+  alignas(64) std::array<std::array<float, kGroups + kReadPadding>, kLines> per_distance{};
 };
 
 /// The readable one.

@@ -55,7 +55,7 @@ void place(HeightWindow& window, int level, int reach, int row, int column) {
   window.first_column = (column >> level) - reach;
   window.width = across;
   window.height = across;
-  window.values.resize(static_cast<std::size_t>(across) * static_cast<std::size_t>(across));
+  window.values.resize(static_cast<std::size_t>(across) * static_cast<std::size_t>(across) + kReadPadding);
 }
 
 void fill_nearest(HeightWindow& window, const Image<float>& heights, bool tiles, float reference) {

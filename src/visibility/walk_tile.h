@@ -8,6 +8,9 @@
 
 namespace heightlight {
 
+/// Entries behind the last of an array that vector loads may touch.
+constexpr int kReadPadding = 16;
+
 /// A part of one level of the heights around a tile: what its receivers read there. Blocks are named by their
 /// own row and column of that level, which go on beyond the map's edges.
 struct HeightWindow {
@@ -16,7 +19,8 @@ struct HeightWindow {
   int first_column = 0;
   int width = 0;  ///< blocks in a row
   int height = 0;
-  std::vector<float> values;  ///< heights above the tile's reference; kNoHeight where nothing is
+  std::vector<float>
+      values;  ///< padded by kReadPadding; heights above the tile's reference; kNoHeight where nothing is
   std::vector<float> coarse;  ///< highest of 8 × 8 values each, ⌈width / 8⌉ per row
 
   int coarse_width() const { return (width + 7) / 8; }

@@ -61,9 +61,7 @@ TEST_CASE("the floor of an infinite trench sees the half sum of the cosines to i
       {// Monte Carlo: 64 texels with differently turned rays, 0.003/√64; five times that
        {by_rays(1024), 2e-3},
        // discretisation: beyond ν/4 texels walks that run more along the trench than across it meet the rim
-       // only
-       // where they cross a row, and interpolate what lies between it and the floor: a rim stands up to a
-       // texel
+       // only where they cross a row, and interpolate between it and the floor: a rim stands up to a texel
        // farther away for them, or a little lower (measured: 5.3e-3 and 4e-4)
        {by_horizon_walks(32), 7e-3},
        {by_horizon_walks(128), 8e-4},
@@ -92,8 +90,7 @@ TEST_CASE("at the foot of a cliff the sky loses half of 1 - cos of its elevation
   const auto [finder, tolerance] = GENERATE(table<Finder, double>(
       {{by_rays(1024), 3e-3},       // Monte Carlo: 21 texels
        {by_horizon_walks(), 1e-3},  // discretisation as in the trench (measured: 2.5e-4)
-       {by_exact_slices(128),
-        3e-5}}));  // discretisation: third order in the azimuth, at the cliff's own direction
+       {by_exact_slices(128), 3e-5}}));  // discretisation: third order at the cliff's own azimuth
   CAPTURE(finder.name);
   const Simulated cliff = simulate_map(std::move(map), finder, 1);
   for (int column = 0; column < 19; ++column) {

@@ -1,0 +1,259 @@
+// How time, memory and error grow with the map: the sky by a fixed walk, then the sky and the total of all
+// bounces for a fixed error, as `simulate` plans them.
+//
+// The maps keep their shape: open, relief a tenth of the width. Finer maps have finer detail (fBm down to two
+// texels, sharper bricks). Each is worked on in a process of its own, so that its peak of memory is its own;
+// making the map counts for neither time nor memory in use, and finding the errors, by exact walks from 256
+// receivers, for neither. Up to 4096 all of it takes some four minutes on two cores, and 2 GB.
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench_map.h"
+#include "core/parallel.h"
+#include "heightlight/error.h"
+#include "heightlight/transport.h"
+#include "stopwatch.h"
+#include "transport/horizon_plan.h"
+#include "visibility/horizon_sky.h"
+
+namespace heightlight {
+namespace {
+
+constexpr double kAlbedo = 0.8;
+constexpr WalkOptions kFixedWalk{32, 16, 0.3F};
+
+/// Of everything beside the links, as they are made and the bounces are summed; measured, and rounded up.
+constexpr std::uint64_t kOtherBytesPerTexel = 90;
+
+/// What became of one map. Plain, so that it can go through a pipe.
+struct Growth {
+  Cost fixed_walk;
+  Cost pilot;   ///< with the choice of how the sky is walked
+  Cost sky;     ///< with its mips
+  Cost links;   ///< with their choice
+  Cost totals;  ///< bounces and tail
+  int sky_azimuths = 0;
+  int sky_fineness = 0;
+  int link_stride = 0;
+  int link_azimuths = 0;
+  int link_fineness = 0;
+  int bounces = 0;
+  double peak_bytes = 0;  ///< resident, of the process, until the totals are there
+  double link_bytes = 0;
+  double kept_share = 0;  ///< of the tiles of links
+  HorizonCheck check;
+
+  Cost all() const { return pilot + sky + links + totals; }
+};
+
+/// Resident memory of this process at its most, bytes.
+double peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
+
+/// The operator that simulate uses, from the same parts, so that each can be timed.
+class WalkedTransport : public Transport {
+ public:
+  WalkedTransport(const Surface& surface, double error, std::uint64_t link_memory, Growth& growth) {
+    HorizonGoal goal;
+    goal.error = error;
+    const Stopwatch pilot_watch;
+    HorizonPilot pilot(surface, goal.seed);
+    HorizonPlan plan = plan_sky(pilot, goal);
+    growth.pilot = pilot_watch.elapsed();
+    const Stopwatch sky_watch;
+    mips_ = build_height_mips(surface);
+    HorizonSky sky = walk_horizon_sky(surface, mips_, plan.sky, true);
+    growth.sky = sky_watch.elapsed();
+    ambient_occlusion = std::move(sky.ambient_occlusion);
+    sky_view_factor = std::move(sky.sky_view_factor);
+    direct = Eigen::Map<const Eigen::VectorXf>(sky_view_factor.values.data(),
+                                               static_cast<Eigen::Index>(sky_view_factor.size()))
+                 .cast<double>();
+    const Stopwatch link_watch;
+    HorizonOptions options;
+    options.memory_limit = link_memory;
+    light_ = plan_links(pilot, mips_, direct, goal, options, plan);
+    growth.links = link_watch.elapsed();
+    growth.sky_azimuths = plan.sky.azimuths;
+    growth.sky_fineness = plan.sky.fineness;
+    growth.link_stride = plan.link_stride;
+    growth.link_azimuths = plan.links.azimuths;
+    growth.link_fineness = plan.links.fineness;
+    growth.link_bytes = static_cast<double>(bytes());
+    growth.kept_share = light_->links().kept_share();
+  }
+
+  TexelVector gather(const TexelVector& x) const override {
+    TexelVector result(x.size());
+    light_->gather(x, direct, result);
+    return result;
+  }
+  double solver_tolerance() const override { return 1e-6; }
+  std::uint64_t link_count() const override { return light_->links().entries() * kBlock; }
+  std::uint64_t bytes() const override { return light_->links().bytes(); }
+
+ private:
+  HeightMips mips_;
+  std::unique_ptr<SeenLight> light_;
+};
+
+struct Options {
+  std::vector<std::string> maps{"brick", "fbm"};
+  int smallest = 256;
+  int largest = 4096;
+  double error = HorizonGoal{}.error;
+  std::uint64_t memory = std::uint64_t{6} << 30;
+  std::string csv;
+};
+
+std::uint64_t link_memory(const Options& options, const Surface& surface) {
+  const std::uint64_t others = surface.map.height.size() * kOtherBytesPerTexel;
+  return options.memory > others ? options.memory - others : 0;
+}
+
+Growth measure(const Options& options, const std::string& map, int size) {
+  const Surface surface = build_surface(make_bench_map(map, size).value());
+  Growth growth;
+  {
+    const HeightMips mips = build_height_mips(surface);
+    growth.fixed_walk = least_cost([&] { walk_horizon_sky(surface, mips, kFixedWalk, true); });
+  }
+  const WalkedTransport transport(surface, options.error, link_memory(options, surface), growth);
+  constexpr double kBounceShare = 0.2;  // of the error, that ending the bounces may take
+  const Stopwatch watch;
+  const TotalIrradiance total = solve_totals(transport, {kAlbedo}, kBounceShare * options.error);
+  growth.totals = watch.elapsed();
+  growth.bounces = total.bounces;
+  growth.peak_bytes = peak_memory();
+  const TexelVector albedo = TexelVector::Constant(total.totals[0].size(), kAlbedo);
+  growth.check = check_by_exact_walks(surface, transport, total.totals[0], albedo, 1);
+  return growth;
+}
+
+/// The same in a process of its own. This one must not have used threads yet: they do not outlive a fork.
+Growth measure_apart(const Options& options, const std::string& map, int size) {
+  int ends[2];
+  if (pipe(ends) != 0) throw Error("no pipe to another process");
+  const pid_t child = fork();
+  if (child < 0) throw Error("no other process");
+  if (child == 0) {
+    try {
+      const Growth growth = measure(options, map, size);
+      if (write(ends[1], &growth, sizeof growth) == sizeof growth) _exit(0);
+    } catch (const std::exception& error) {
+      std::fprintf(stderr, "heightlight_growth_bench: %s\n", error.what());
+    }
+    _exit(1);
+  }
+  close(ends[1]);
+  Growth growth;
+  const bool whole = read(ends[0], &growth, sizeof growth) == sizeof growth;
+  close(ends[0]);
+  int status = 0;
+  waitpid(child, &status, 0);
+  if (!whole || status != 0) throw Error(map + ", " + std::to_string(size) + ": could not be measured");
+  return growth;
+}
+
+void print_head(const Options& options) {
+  std::printf(
+      "fixed walk: core-ns per texel and azimuth, %d azimuths, fineness %d\n"
+      "the rest: sky and totals at albedo %g, planned for an error of %g; core-seconds\n"
+      "others: processors that other programs kept busy meanwhile; wall times suffer from them\n"
+      "B/texel: peak of memory, that of the links in it; kept: share of the links that had room\n"
+      "links: every n-th receiver, azimuths, fineness; RMSE: by exact walks\n"
+      "%-6s %6s %6s %7s %7s %7s %7s %8s %8s %6s %8s %8s %8s %5s %-8s %-10s %7s %8s %8s\n",
+      kFixedWalk.azimuths, kFixedWalk.fineness, kAlbedo, options.error, "map", "size", "fixed", "pilot",
+      "sky", "links", "totals", "core-s", "wall-s", "others", "peak MB", "B/texel", "of links", "kept", "sky",
+      "links", "bounces", "RMSE A", "total");
+}
+
+void print_row(const std::string& map, int size, const Growth& g) {
+  const double texels = static_cast<double>(size) * size;
+  const std::string sky = std::to_string(g.sky_azimuths) + "/" + std::to_string(g.sky_fineness);
+  const std::string links = std::to_string(g.link_stride) + "," + std::to_string(g.link_azimuths) + "/" +
+                            std::to_string(g.link_fineness);
+  const Cost all = g.all();
+  std::printf(
+      "%-6s %6d %6.2f %7.3f %7.3f %7.3f %7.3f %8.3f %8.3f %6.2f %8.0f %8.1f %8.1f %5.2f %-8s %-10s %7d %8.5f "
+      "%8.5f\n",
+      map.c_str(), size, 1e9 * g.fixed_walk.core / (texels * kFixedWalk.azimuths), g.pilot.core, g.sky.core,
+      g.links.core, g.totals.core, all.core, all.wall, all.others / all.wall, 1e-6 * g.peak_bytes,
+      g.peak_bytes / texels, g.link_bytes / texels, g.kept_share, sky.c_str(), links.c_str(), g.bounces,
+      g.check.sky_rmse, g.check.total_rmse);
+  std::fflush(stdout);
+}
+
+void write_row(std::ostream& file, const std::string& map, int size, const Growth& g) {
+  const double texels = static_cast<double>(size) * size;
+  const Cost all = g.all();
+  file << map << ',' << size << ',' << 1e9 * g.fixed_walk.core / (texels * kFixedWalk.azimuths) << ','
+       << g.pilot.core << ',' << g.sky.core << ',' << g.links.core << ',' << g.totals.core << ',' << all.core
+       << ',' << all.wall << ',' << all.others << ',' << g.peak_bytes << ',' << g.peak_bytes / texels << ','
+       << g.link_bytes / texels << ',' << g.kept_share << ',' << g.sky_azimuths << ',' << g.sky_fineness
+       << ',' << g.link_stride << ',' << g.link_azimuths << ',' << g.link_fineness << ',' << g.bounces << ','
+       << g.check.sky_rmse << ',' << g.check.total_rmse << '\n';
+}
+
+void run(const Options& options) {
+  std::ofstream file;
+  if (!options.csv.empty()) {
+    file.open(options.csv);
+    file << "map,size,fixed_walk_core_ns,pilot_core_s,sky_core_s,links_core_s,totals_core_s,core_s,wall_s,"
+            "others_core_s,peak_bytes,bytes_per_texel,link_bytes_per_texel,kept_share,sky_azimuths,"
+            "sky_fineness,link_stride,link_azimuths,link_fineness,bounces,rmse_sky,rmse_total\n";
+  }
+  print_head(options);
+  for (const std::string& map : options.maps) {
+    for (int size = options.smallest; size <= options.largest; size *= 2) {
+      const Growth growth = measure_apart(options, map, size);
+      print_row(map, size, growth);
+      if (file.is_open()) write_row(file, map, size, growth);
+    }
+  }
+  file.close();
+  if (!options.csv.empty() && !file) throw Error(options.csv + ": could not be written");
+}
+
+}  // namespace
+}  // namespace heightlight
+
+int main(int argument_count, char** arguments) {
+  try {
+    heightlight::Options options;
+    CLI::App app("Time, memory and error against the size of the map; the head of the source says more");
+    app.add_option("--maps", options.maps, "brick, fbm")
+        ->delimiter(',')
+        ->check(CLI::IsMember({"brick", "fbm"}));
+    app.add_option("--smallest", options.smallest, "texels along an edge, doubled up to")
+        ->check(CLI::Range(64, 16384));
+    app.add_option("--largest", options.largest, "this (4096)")->check(CLI::Range(64, 16384));
+    app.add_option("--error", options.error, "RMSE wanted, of A and of the total")
+        ->check(CLI::PositiveNumber);
+    app.add_option("--memory", options.memory,
+                   "bytes; links that find no room in it are walked again at each bounce (6G)")
+        ->transform(CLI::AsSizeValue(false));
+    app.add_option("--csv", options.csv, "file for the results");
+    CLI11_PARSE(app, argument_count, arguments);
+    heightlight::run(options);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "heightlight_growth_bench: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}

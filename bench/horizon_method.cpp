@@ -1,0 +1,94 @@
+#include "horizon_method.h"
+
+#include <limits>
+#include <memory>
+#include <string>
+
+#include "heightlight/transport.h"
+#include "transport/horizon_pilot.h"
+#include "transport/horizon_plan.h"
+#include "visibility/horizon_sky.h"
+
+namespace heightlight {
+namespace {
+
+constexpr std::uint64_t kSeed = 1;  // of the pilot's receivers, which are not the reference's
+
+Map walk_sky(const Surface& surface, const WalkOptions& options) {
+  return walk_horizon_sky(surface, build_height_mips(surface), options, true).sky_view_factor;
+}
+
+/// The share of peaks that a pilot finds best, of those that plans try.
+float choose_peak_share(const Surface& surface, int fineness) {
+  HorizonPilot pilot(surface, kSeed);
+  float best = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (const float peak_share : {0.0F, 0.3F, 0.6F}) {
+    const double error = pilot.sampling_error(fineness, peak_share);
+    if (error >= least) continue;
+    least = error;
+    best = peak_share;
+  }
+  return best;
+}
+
+Method walk_method(const Surface& surface, int fineness) {
+  const auto peak_share = std::make_shared<float>();
+  Method method;
+  method.name = "horizon walk, fineness " + std::to_string(fineness);
+  method.parameter = "azimuths";
+  method.settings = {4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128};
+  method.granularity = 2;
+  method.set_up = [peak_share, &surface, fineness](int) {
+    *peak_share = choose_peak_share(surface, fineness);
+  };
+  method.run_map = [peak_share, &surface, fineness](int azimuths) {
+    return walk_sky(surface, {azimuths, fineness, *peak_share});
+  };
+  return method;
+}
+
+/// A method that is told an error, as its inverse.
+Method planned_method(const std::vector<double>& errors) {
+  Method method;
+  method.name = "horizon walk, planned";
+  method.parameter = "1/error";
+  method.setting_for = [](double error) { return static_cast<int>(std::lround(1 / error)); };
+  for (const double error : errors) method.settings.push_back(method.setting_for(error));
+  return method;
+}
+
+Method planned_sky_method(const Surface& surface) {
+  Method method = planned_method({0.016, 0.011, 0.008, 0.0056, 0.004, 0.0028, 0.002, 0.0014, 0.001, 0.0007});
+  method.run_map = [&surface](int inverse) {
+    HorizonGoal goal;
+    goal.error = 1.0 / inverse;
+    HorizonPilot pilot(surface, kSeed);
+    return walk_sky(surface, plan_sky(pilot, goal).sky);
+  };
+  return method;
+}
+
+}  // namespace
+
+std::vector<Method> horizon_sky_methods(const Surface& surface) {
+  std::vector<Method> methods;
+  for (const int fineness : {8, 16, 32}) methods.push_back(walk_method(surface, fineness));
+  methods.push_back(planned_sky_method(surface));
+  return methods;
+}
+
+Method horizon_total_method(const Surface& surface, double albedo) {
+  Method method = planned_method({0.02, 0.014, 0.01, 0.007, 0.005, 0.0035, 0.0025});
+  method.run_map = [&surface, albedo](int inverse) {
+    HorizonGoal goal;
+    goal.error = 1.0 / inverse;
+    goal.total_only = true;
+    const PlannedTransport planned = plan_horizon_transport(surface, goal, {});
+    constexpr double kBounceShare = 0.2;  // of the error, that ending the bounces may take
+    return to_map(solve_totals(*planned.transport, {albedo}, kBounceShare * goal.error).totals[0], surface);
+  };
+  return method;
+}
+
+}  // namespace heightlight
