@@ -89,12 +89,11 @@ TEST_CASE("one-dimensional and tiny maps simulate", "[cli]") {
       std::pair{
           "island.asc",
           "ncols 3\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value -1\n-1 -1 -1\n-1 7 -1\n"});
-  const std::string boundary = GENERATE("tile", "open");
-  const std::string method = GENERATE("", "--rays 64", "--error 0");
+  const std::string options = GENERATE("--boundary tile", "--boundary open", "--boundary tile --rays 64",
+                                       "--boundary open --error 0");
   write_text(folder / name, grid);
-  const CommandResult run =
-      run_command(std::string("simulate ") + name + " -o out --boundary " + boundary + " " + method, folder);
-  INFO(name << " " << boundary << " " << method << " " << run.error);
+  const CommandResult run = run_command(std::string("simulate ") + name + " -o out " + options, folder);
+  INFO(name << " " << options << " " << run.error);
   REQUIRE(run.exit_code == 0);
   CHECK(run.error.empty());
   check_energy(read_summary(folder / "out"));

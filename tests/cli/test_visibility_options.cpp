@@ -24,7 +24,7 @@ nlohmann::json simulate(const ScratchFolder& folder, const std::string& map, con
 TEST_CASE("simulate walks horizons unless told otherwise, and says how, and how well", "[cli]") {
   const ScratchFolder folder;
   REQUIRE(run_command("synth brick -o b.png --size 96", folder).exit_code == 0);
-  const std::string options = GENERATE("", "--visibility horizon", "--error 0.002");
+  const std::string options = GENERATE("", "--visibility horizon --error 0.002");
   const nlohmann::json visibility = simulate(folder, "b.png", "out", options)["visibility"];
   CHECK(visibility["method"] == "horizon");
   CHECK(visibility["rays"].is_null());
@@ -101,16 +101,23 @@ TEST_CASE("with too little memory for links they are walked again, and the resul
   }
 }
 
-TEST_CASE("an albedo image of one grey gives what its reflectance gives", "[cli]") {
+TEST_CASE("under an albedo image horizon walks and rays give the same total", "[cli]") {
   const ScratchFolder folder;
-  REQUIRE(run_command("synth brick -o b.png --size 64", folder).exit_code == 0);
-  REQUIRE(run_command("synth flat -o black.png --size 64", folder).exit_code == 0);
-  const std::string method = GENERATE("--error 0.01", "--rays 64", "--error 0 --azimuths 16");
-  const nlohmann::json by_image = simulate(folder, "b.png", "image", method + " --albedo black.png");
-  const nlohmann::json by_number = simulate(folder, "b.png", "number", method + " --albedo 0");
-  CHECK(by_image["albedo"] == "black.png");
-  CHECK(read_picture(folder / "image" / "irradiance_total.exr").values ==
-        read_picture(folder / "number" / "irradiance_total.exr").values);
+  REQUIRE(run_command("synth brick -o b.png --size 96", folder).exit_code == 0);
+  REQUIRE(run_command("synth cobbles -o albedo.png --size 96", folder).exit_code == 0);
+  simulate(folder, "b.png", "walks", "--albedo albedo.png");
+  simulate(folder, "b.png", "rays", "--albedo albedo.png --rays 512");
+  const Picture walks = read_picture(folder / "walks" / "irradiance_total.exr");
+  const Picture rays = read_picture(folder / "rays" / "irradiance_total.exr");
+  REQUIRE(walks.values.size() == rays.values.size());
+  double squares = 0;
+  for (std::size_t i = 0; i < rays.values.size(); ++i) {
+    squares += std::pow(double{walks.values[i]} - double{rays.values[i]}, 2);
+  }
+  const double rmse = std::sqrt(squares / static_cast<double>(rays.values.size()));
+  CAPTURE(rmse);
+  CHECK(rmse <
+        0.005);  // Monte Carlo: of 512 rays, 0.002; discretisation: of walks, 1.5 times the error of 0.002
 }
 
 }  // namespace

@@ -88,8 +88,8 @@ TEST_CASE("at the foot of a cliff the sky loses half of 1 - cos of its elevation
                            [&](int, int column) { return column < 20 ? 0.0 : double{kDepth}; });
   map.spacing = {1, 4};
   const auto [finder, tolerance] = GENERATE(table<Finder, double>(
-      {{by_rays(1024), 3e-3},       // Monte Carlo: 21 texels
-       {by_horizon_walks(), 1e-3},  // discretisation as in the trench (measured: 2.5e-4)
+      {{by_rays(1024), 3e-3},            // Monte Carlo: 21 texels
+       {by_horizon_walks(), 1e-3},       // discretisation as in the trench (measured: 2.5e-4)
        {by_exact_slices(128), 3e-5}}));  // discretisation: third order at the cliff's own azimuth
   CAPTURE(finder.name);
   const Simulated cliff = simulate_map(std::move(map), finder, 1);

@@ -166,8 +166,8 @@ TEST_CASE("turning a map by 90 degrees turns the result, up to the cells' diagon
   }
   const auto [finder, texel_tolerance, mean_tolerance] = GENERATE(table<Finder, double, double>(
       {{by_rays(512), 4e-3, 3e-4},  // Monte Carlo, both maps; discretisation of the diagonal, h²-small here
-       {by_horizon_walks(), 4e-3, 3e-4},
-       {by_exact_slices(32), 4e-3, 3e-4}}));
+       {by_horizon_walks(), 1e-3, 3e-4},
+       {by_exact_slices(32), 1e-3, 5e-4}}));  // the diagonal alone (measured: 4e-4 and 3.1e-4)
   CAPTURE(finder.name);
   const Simulated here = simulate_map(map, finder);
   const Simulated there = simulate_map(turned, finder);
@@ -182,7 +182,6 @@ TEST_CASE("turning a map by 90 degrees turns the result, up to the cells' diagon
       difference += d / 4096;
     }
   }
-  printf("turn %s %g %g\n", finder.name, std::sqrt(squares), difference);
   CHECK(std::sqrt(squares) < texel_tolerance);
   CHECK(std::fabs(difference) < mean_tolerance);
 }
