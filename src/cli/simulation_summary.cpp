@@ -52,7 +52,7 @@ Json describe_visibility(const SimulateOptions& options, const Simulation& simul
                      {"rmse_estimate", nullptr}};
   if (chosen.by_rays()) visibility["rays"] = chosen.ray_count();
   if (chosen.exact()) visibility["azimuths"] = chosen.exact_azimuths();
-  if (!chosen.by_rays()) visibility["error_wanted"] = chosen.error;
+  if (!chosen.by_rays()) visibility["error_wanted"] = chosen.error_wanted();
   if (simulation.plan) add_plan(*simulation.plan, visibility);
   if (simulation.rmse_estimate) visibility["rmse_estimate"] = *simulation.rmse_estimate;
   if (simulation.check) {

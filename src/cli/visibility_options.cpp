@@ -24,13 +24,14 @@ void check_visibility_options(const VisibilityOptions& options, std::uint64_t se
     throw UsageError("--rays: horizon walks send none; leave it out, or choose --visibility rays");
   }
   if (options.by_rays()) {
-    if (options.azimuths != 0) throw UsageError("--azimuths: rays have none; use --rays");
+    if (options.azimuths) throw UsageError("--azimuths: rays have none; use --rays");
+    if (options.error) throw UsageError("--error: rays do not aim at one; use --rays");
     check_ray_options({options.ray_count(), seed});
     return;
   }
-  if (options.azimuths != 0) check_azimuths(options.azimuths);
-  if (!(options.error >= 0) || options.error > 1) {
-    throw UsageError("--error " + std::to_string(options.error) + ": must be from 0 to 1");
+  if (options.azimuths) check_azimuths(*options.azimuths);
+  if (!(options.error_wanted() >= 0) || options.error_wanted() > 1) {
+    throw UsageError("--error " + std::to_string(options.error_wanted()) + ": must be from 0 to 1");
   }
 }
 
@@ -49,7 +50,8 @@ FoundVisibility find_visibility(const Surface& surface, const VisibilityOptions&
         std::make_unique<FormFactors>(build_exact_form_factors(surface, options.exact_azimuths(), stored));
   } else {
     PlannedTransport planned = plan_horizon_transport(
-        surface, {options.error, false, options.azimuths, run.seed}, {memory, run.quiet});
+        surface, {options.error_wanted(), false, options.azimuths.value_or(0), run.seed},
+        {memory, run.quiet});
     found.transport = std::move(planned.transport);
     found.plan = planned.plan;
   }

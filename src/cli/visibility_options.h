@@ -16,13 +16,14 @@ struct VisibilityOptions {
   std::string method;  ///< "horizon", "rays", or empty: rays where their number is given, else horizon
   std::optional<int>
       rays;              ///< 300 where absent, so that each of 100 bins holds three of the values α can take
-  int azimuths = 0;      ///< 0: chosen for the error wanted
-  double error = 0.002;  ///< RMSE of A and of the total; 0: exact slices
+  std::optional<int> azimuths;  ///< chosen for the error wanted where absent
+  std::optional<double> error;  ///< RMSE of A and of the total; 0: exact slices; 0.002 where absent
 
   bool by_rays() const { return method == "rays" || (method.empty() && rays); }
-  bool exact() const { return !by_rays() && error == 0; }
+  bool exact() const { return !by_rays() && error_wanted() == 0; }
   int ray_count() const { return rays.value_or(300); }
-  int exact_azimuths() const { return azimuths > 0 ? azimuths : 128; }
+  double error_wanted() const { return error.value_or(0.002); }
+  int exact_azimuths() const { return azimuths.value_or(128); }
 };
 
 /// Adds `--visibility --rays --azimuths --error`.

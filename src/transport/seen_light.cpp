@@ -1,5 +1,8 @@
 #include "transport/seen_light.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace heightlight {
 
 SeenLight::SeenLight(const Surface& surface, const HeightMips& mips, const HorizonPlan& plan,
@@ -15,6 +18,17 @@ SeenLight::SeenLight(const Surface& surface, const HeightMips& mips, const Horiz
 }
 
 void SeenLight::gather(const TexelVector& x, const TexelVector& sky, TexelVector& result) {
+  // Links are read in single precision. Light that it might lose is gathered brighter, by a power of two.
+  constexpr int kDimmest = -40;
+  int exponent = 0;
+  const double brightest = x.cwiseAbs().maxCoeff();
+  std::frexp(brightest, &exponent);
+  if (brightest > 0 && exponent < kDimmest) {
+    exponent = std::max(exponent, -1000);  // of what is dimmer still the power would be infinite
+    gather(std::ldexp(1.0, -exponent) * x, sky, result);
+    result *= std::ldexp(1.0, exponent);
+    return;
+  }
   if (lattice_.stride > 1) {
     links_->mean_seen(take_lattice(surface_, lattice_, x), mean_);
   } else {

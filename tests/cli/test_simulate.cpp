@@ -1,44 +1,14 @@
-#include <OpenImageIO/imageio.h>
-
 #include <catch2/catch.hpp>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "command.h"
+#include "results.h"
 #include "shared_data.h"
 
 namespace heightlight {
 namespace {
-
-struct Picture {
-  int width = 0;
-  int height = 0;
-  std::vector<std::string> channels;
-  std::vector<float> values;
-};
-
-Picture read_picture(const std::filesystem::path& path) {
-  const auto file = OIIO::ImageInput::open(path.string());
-  REQUIRE(file);
-  const OIIO::ImageSpec& spec = file->spec();
-  Picture picture{spec.width, spec.height, spec.channelnames, {}};
-  picture.values.resize(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) *
-                        static_cast<std::size_t>(spec.nchannels));
-  REQUIRE(file->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, picture.values.data()));
-  return picture;
-}
-
-nlohmann::json read_summary(const std::filesystem::path& folder) {
-  return nlohmann::json::parse(read_text(folder / "summary.json"));
-}
-
-/// What must hold of any map, as the command itself reports it.
-void check_energy(const nlohmann::json& summary) {
-  CHECK(summary["energy"]["row_sum_max_error"].get<double>() <= 1e-6);
-  CHECK(summary["energy"]["sum_max_error"].get<double>() <= 1e-5);
-}
 
 TEST_CASE("simulate writes every file that the design names, and says what it did", "[cli]") {
   const ScratchFolder folder;
@@ -83,10 +53,12 @@ TEST_CASE("simulate writes every file that the design names, and says what it di
 
 TEST_CASE("simulate gives the same files for any number of threads", "[cli]") {
   const ScratchFolder folder;
-  REQUIRE(run_command("synth cobbles -o c.exr --size 33", folder).exit_code == 0);
-  for (const char* threads : {"1", "2", "7"}) {
-    const std::string options = std::string("simulate c.exr --relief 0.2 --rays 48 --quiet -o out") +
-                                threads + " --threads " + threads;
+  const std::string method = GENERATE("", "--rays 48", "--error 0 --azimuths 8");
+  CAPTURE(method);
+  REQUIRE(run_command("synth cobbles -o c.exr --size 70", folder).exit_code == 0);
+  for (const std::string threads : {"1", "2", "7"}) {
+    const std::string options =
+        "simulate c.exr --relief 0.2 --quiet -o out" + threads + " --threads " + threads + " " + method;
     REQUIRE(run_command(options, folder).exit_code == 0);
   }
   for (const char* name :
@@ -97,54 +69,13 @@ TEST_CASE("simulate gives the same files for any number of threads", "[cli]") {
   }
 }
 
-TEST_CASE("simulate walks horizons unless told otherwise, and says what that reached", "[cli]") {
-  const ScratchFolder folder;
-  REQUIRE(run_command("synth brick -o b.png --size 96", folder).exit_code == 0);
-  REQUIRE(run_command("simulate b.png -o out --albedo 0.8 --error 0.004", folder).exit_code == 0);
-  const nlohmann::json summary = read_summary(folder / "out");
-  check_energy(summary);
-  const nlohmann::json& visibility = summary["visibility"];
-  CHECK(visibility["method"] == "horizon");
-  CHECK(visibility["azimuths"].get<int>() > 0);
-  CHECK(visibility["rays"].is_null());
-  CHECK(visibility["checked"]["receivers"].get<int>() > 100);
-  // Monte Carlo: the pilot's sample against the check's; half as much again as was wanted
-  CHECK(visibility["checked"]["sky_view_factor_rmse"].get<double>() < 1.5 * 0.004);
-  CHECK(visibility["checked"]["total_rmse"].get<double>() < 1.5 * 0.004);
-  CHECK(visibility["rmse_estimate"] == visibility["checked"]["sky_view_factor_rmse"]);
-}
-
-TEST_CASE("an error of 0 means exact slices, whose energy balances, and rays are the reference", "[cli]") {
-  const ScratchFolder folder;
-  REQUIRE(run_command("synth brick -o b.png --size 40", folder).exit_code == 0);
-  REQUIRE(run_command("simulate b.png -o exact --error 0 --azimuths 32", folder).exit_code == 0);
-  REQUIRE(run_command("simulate b.png -o rays --visibility rays", folder).exit_code == 0);
-  const nlohmann::json exact = read_summary(folder / "exact");
-  const nlohmann::json rays = read_summary(folder / "rays");
-  check_energy(exact);
-  check_energy(rays);
-  CHECK(exact["visibility"]["azimuths"] == 32);
-  CHECK(rays["visibility"]["method"] == "rays");
-  CHECK(rays["visibility"]["rays"] == 300);
-}
-
-TEST_CASE("links walked again for lack of memory give the same files", "[cli]") {
-  const ScratchFolder folder;
-  REQUIRE(run_command("synth brick -o b.png --size 192", folder).exit_code == 0);
-  REQUIRE(run_command("simulate b.png -o kept", folder).exit_code == 0);
-  REQUIRE(run_command("simulate b.png -o again --memory 9M", folder).exit_code == 0);
-  CHECK(read_summary(folder / "again")["links"]["bytes"].get<std::uint64_t>() <
-        read_summary(folder / "kept")["links"]["bytes"].get<std::uint64_t>());
-  for (const char* name : {"sky_view_factor.exr", "irradiance_total.exr", "curves.csv"}) {
-    CHECK((read_text(folder / "kept" / name) == read_text(folder / "again" / name)));
-  }
-}
-
 TEST_CASE("an albedo image is decoded from sRGB and scales the light that it sends on", "[cli]") {
   const ScratchFolder folder;
   REQUIRE(run_command("synth trench -o t.png --size 24", folder).exit_code == 0);
   REQUIRE(run_command("synth flat -o black.png --size 24", folder).exit_code == 0);
-  REQUIRE(run_command("simulate t.png -o out --rays 32 --albedo black.png", folder).exit_code == 0);
+  const std::string method = GENERATE("", "--rays 32", "--error 0 --azimuths 8");
+  CAPTURE(method);
+  REQUIRE(run_command("simulate t.png -o out --albedo black.png " + method, folder).exit_code == 0);
   CHECK(read_picture(folder / "out" / "irradiance_total.exr").values ==
         read_picture(folder / "out" / "sky_view_factor.exr").values);
 }
@@ -158,11 +89,11 @@ TEST_CASE("one-dimensional and tiny maps simulate", "[cli]") {
       std::pair{
           "island.asc",
           "ncols 3\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value -1\n-1 -1 -1\n-1 7 -1\n"});
-  const std::string boundary = GENERATE("tile", "open");
+  const std::string options = GENERATE("--boundary tile", "--boundary open", "--boundary tile --rays 64",
+                                       "--boundary open --error 0");
   write_text(folder / name, grid);
-  const CommandResult run =
-      run_command(std::string("simulate ") + name + " -o out --rays 64 --boundary " + boundary, folder);
-  INFO(name << " " << boundary << " " << run.error);
+  const CommandResult run = run_command(std::string("simulate ") + name + " -o out " + options, folder);
+  INFO(name << " " << options << " " << run.error);
   REQUIRE(run.exit_code == 0);
   CHECK(run.error.empty());
   check_energy(read_summary(folder / "out"));
@@ -176,12 +107,13 @@ TEST_CASE("every real map simulates, with its energy in balance", "[cli][slow]")
       std::pair{"terrain/SRTMGL3_boulder.asc", "--texel 70.8x92.6"},
       std::pair{"terrain/DSM_PHR_Dunkerque.tif", "--texel 0.5 --boundary open"},
       std::pair{"terrain/hugo_site_filled.asc", "--no-data -9999"});
+  const std::string method = GENERATE("", " --rays 48");
   const auto path = find_shared_data(name);
   if (!path) return;
   const ScratchFolder folder;
   const CommandResult run =
-      run_command("simulate '" + path->string() + "' -o out --rays 48 --quiet " + options, folder);
-  INFO(name << ": " << run.error);
+      run_command("simulate '" + path->string() + "' -o out --quiet " + options + method, folder);
+  INFO(name << method << ": " << run.error);
   REQUIRE(run.exit_code == 0);
   check_energy(read_summary(folder / "out"));
 }

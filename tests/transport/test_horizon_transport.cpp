@@ -113,6 +113,18 @@ TEST_CASE("the plan does not depend on the number of threads", "[transport][hori
   set_thread_count(0);
 }
 
+TEST_CASE("dim light is gathered as well as bright light, to the last bit", "[transport][horizon]") {
+  const int stride = GENERATE(1, 2);
+  const int dimming = GENERATE(-30, -140, -900);  // single precision ends at 2^-149
+  const Surface surface = build_surface(make_synth_map("sines", 128, Boundary::tile, 0.3));
+  const auto transport = build_horizon_transport(surface, cheap_plan(stride), {});
+  const double factor = std::ldexp(1.0, dimming);
+  const TexelVector field = smooth_field(surface);
+  CHECK(gather(*transport, factor * field) == factor * gather(*transport, field));
+  CHECK(gather(*transport, TexelVector::Zero(field.size())).isZero(0));
+  CHECK(gather(*transport, TexelVector::Constant(field.size(), 1e-320)).allFinite());
+}
+
 /// The values of a map of `size` × `size` moved by whole texels around its torus.
 TexelVector shift(const TexelVector& values, int size, int rows, int columns) {
   TexelVector shifted(values.size());
