@@ -55,7 +55,7 @@ Json describe_map(const ManifestMap& map, const Checksum& checksum, const LoadOp
 /// Only what the results depend on: the wanted error means nothing to rays.
 Json describe_simulation(const SimulateOptions& options, const std::string& albedo) {
   const VisibilityOptions& visibility = options.visibility;
-  Json chosen = {{"error", visibility.error}, {"azimuths", visibility.azimuths}};
+  Json chosen = {{"error", visibility.error_wanted()}, {"azimuths", or_null(visibility.azimuths)}};
   if (visibility.by_rays()) chosen = {{"rays", visibility.ray_count()}};
   return {{"visibility", chosen}, {"seed", options.run.seed}, {"bounces", options.bounces},
           {"bins", options.bins}, {"albedo", albedo},         {"save_bounces", options.save_bounces}};
