@@ -34,11 +34,11 @@ do for [m = 1:3] {
   set title names[m].': first bounce'
   set ylabel 'E_1 / π (bin mean)'
   set yrange [0:0.5]
-  if (m == 1) { set key top right title 'relief / width' samplen 2 } else { unset key }
+  if (m == 1) { set key top right maxrows 5 title 'relief / width' samplen 1.5 } else { unset key }
   plot for [s = 1:9] curve(maps[m], shares[s], 1) using 1:2 with lines linewidth 2 linecolor rgb colours[s] title shares[s], \
-    F1(x) with lines linewidth 1.4 dashtype 4 linecolor rgb '#777777' title 'F_1(α), notes eq. 11'
+    F1(x) with lines linewidth 1.4 dashtype 4 linecolor rgb '#777777' title 'F_1, eq. 11'
   if (m == 1) {
-    set key top right notitle
+    set key top right maxrows 5 title 'relief / width' samplen 1.5
     set title names[m].': second to sixth bounce at relief 0.01, 0.1 and 1'
     set ylabel 'E_2 … E_6 / π'
     set logscale y
@@ -49,11 +49,9 @@ do for [m = 1:3] {
     unset logscale y
     set format y '%g'
   }
-  if (m == 2) {
-    set key at screen 0.98, 0.60 notitle
-  }
 }
-set key center left title '' samplen 2
+set key default
+set key inside left bottom opaque notitle samplen 2
 set title 'brick wall: where the sky'."'".'s irradiance ends, mean over the map'
 set xlabel 'relief / width'
 set ylabel 'share of all bounces'
@@ -66,7 +64,7 @@ plot means(maps[1]) using 1:($3+$4+$5+$6) with filledcurves x1 linecolor rgb '#4
   means(maps[1]) using 1:3 with filledcurves x1 linecolor rgb '#d5e21a' title 'E_0'
 set title 'mean over the map of α (dashed) and of the first bounce'
 set ylabel 'α,  E_1 / π'
-set key center right
+set key inside top right
 plot for [m = 1:3] means(maps[m]) using 1:4 with linespoints linewidth 2 pointtype 7 pointsize 0.6 linecolor m title names[m], \
   for [m = 1:3] means(maps[m]) using 1:2 with lines linewidth 1.5 dashtype 2 linecolor m notitle
 unset multiplot

@@ -22,17 +22,20 @@ namespace fs = std::filesystem;
 
 Json read_summary(const DatasetRun& run) { return Json(read_json(run.simulate.folder / "summary.json")); }
 
-double actual_relief_share(const Json& map) {
-  return map.at("relief").get<double>() /
-         (map.at("width").get<double>() * map.at("texel").at(0).get<double>());
+/// As far as single precision, in which heights are kept, tells it.
+float actual_relief_share(const Json& map) {
+  const double share =
+      map.at("relief").get<double>() / (map.at("width").get<double>() * map.at("texel").at(0).get<double>());
+  return static_cast<float>(share);
 }
 
 /// The cells that every line of a run begins with.
 std::string describe_line(const DatasetRun& run, const Json& summary) {
   const Json& map = summary.at("map");
-  const double share = run.relief_share.value_or(actual_relief_share(map));
-  return run.name + ',' + run.map->name + ',' + in_digits(share) + ',' +
-         map.at("boundary").get<std::string>() + ',' + run.options->name + ',';
+  const std::string share =
+      run.relief_share ? in_digits(*run.relief_share) : in_digits(actual_relief_share(map));
+  return run.name + ',' + run.map->name + ',' + share + ',' + map.at("boundary").get<std::string>() + ',' +
+         run.options->name + ',';
 }
 
 /// Copies the curves of a run, each line with its cells before it.

@@ -4,11 +4,12 @@
 #include <system_error>
 
 #include "io/input_file.h"
+#include "io/staging_folder.h"
 
 namespace heightlight {
 
 OutputError output_error(const std::filesystem::path& path, const std::string& fault) {
-  return OutputError(path.string() + ": cannot be written: " + fault);
+  return OutputError(final_path(path).string() + ": cannot be written: " + fault);
 }
 
 OutputError output_error(const std::filesystem::path& path, int error_number) {

@@ -10,7 +10,7 @@
 
 namespace heightlight {
 
-/// "PATH: cannot be written: FAULT".
+/// "PATH: cannot be written: FAULT"; of a file in a staging folder, the path where it would have stood.
 OutputError output_error(const std::filesystem::path& path, const std::string& fault);
 /// Likewise of what the system says of an errno.
 OutputError output_error(const std::filesystem::path& path, int error_number);

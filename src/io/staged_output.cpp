@@ -89,7 +89,10 @@ StagedFolder::StagedFolder(fs::path folder) : folder_(std::move(folder)) {
   }
   try {
     if (is_new_ && failure) throw output_error(folder_, failure.message());
-    staging_ = std::make_unique<StagingFolder>(is_new_ ? parent : folder_, folder_);
+    // A name that is too long shows only now, where its parent is.
+    if (fs::status(folder_, failure).type() == fs::file_type::none)
+      throw output_error(folder_, failure.message());
+    staging_ = std::make_unique<StagingFolder>(is_new_ ? parent : folder_, folder_, folder_);
   } catch (const Error&) {
     remove_empty_folders(parent, first_created_);
     throw;
@@ -137,7 +140,7 @@ StagedFile::StagedFile(fs::path destination) : destination_(std::move(destinatio
   const fs::path folder = parent_of(destination_);
   std::error_code ignored;
   if (!fs::exists(folder, ignored)) throw output_error(destination_, "its folder does not exist");
-  staging_ = std::make_unique<StagingFolder>(folder, destination_);
+  staging_ = std::make_unique<StagingFolder>(folder, folder, destination_);
   staged_ = staging_->path() / destination_.filename();
 }
 

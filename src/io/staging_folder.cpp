@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
-#include <set>
+#include <map>
 #include <string>
 #include <system_error>
 
@@ -24,12 +24,12 @@ constexpr const char* kPrefix = ".heightlight-";
 /// Those of this process. Never destroyed: the end of the process needs them.
 struct Staged {
   std::mutex mutex;
-  std::set<fs::path> folders;
+  std::map<fs::path, fs::path> folders;  ///< and where what they hold is to stand
 };
 
 void remove_all_staged(const Staged& staged) {
   std::error_code ignored;
-  for (const fs::path& folder : staged.folders) fs::remove_all(folder, ignored);
+  for (const auto& [folder, destination] : staged.folders) fs::remove_all(folder, ignored);
 }
 
 Staged& staged_here() {
@@ -77,7 +77,7 @@ bool lock_new_folder(int descriptor, const fs::path& folder) {
 
 }  // namespace
 
-StagingFolder::StagingFolder(const fs::path& parent, const fs::path& result) {
+StagingFolder::StagingFolder(const fs::path& parent, const fs::path& folder, const fs::path& result) {
   remove_left_behind(parent);
   Staged& staged = staged_here();
   const std::string stem = kPrefix + std::to_string(getpid()) + "-";
@@ -94,7 +94,7 @@ StagingFolder::StagingFolder(const fs::path& parent, const fs::path& result) {
     descriptor_ = open_folder(candidate);
     if (descriptor_ >= 0 && lock_new_folder(descriptor_, candidate)) {
       path_ = candidate;
-      staged.folders.insert(path_);
+      staged.folders.emplace(path_, folder);
       return;
     }
     if (descriptor_ >= 0) close(descriptor_);
@@ -121,6 +121,12 @@ bool StagingFolder::become(const fs::path& destination) {
   if (rename(path_.c_str(), destination.c_str()) != 0) return false;
   forget();
   return true;
+}
+
+fs::path final_path(const fs::path& path) {
+  const std::lock_guard lock(staged_here().mutex);
+  const auto found = staged_here().folders.find(path.parent_path());
+  return found == staged_here().folders.end() ? path : found->second / path.filename();
 }
 
 std::unique_lock<std::mutex> hold_off_end() { return std::unique_lock(staged_here().mutex); }

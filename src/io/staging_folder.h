@@ -10,8 +10,10 @@ namespace heightlight {
 /// the next that stages in the same place: a lock, which ends with its process, tells it from those in use.
 class StagingFolder {
  public:
-  /// In `parent`, which exists. Throws Error, naming `result`, when it cannot be made there.
-  StagingFolder(const std::filesystem::path& parent, const std::filesystem::path& result);
+  /// In `parent`, which exists; what it holds is to stand in `folder`. Throws OutputError, naming `result`,
+  /// when it cannot be made there.
+  StagingFolder(const std::filesystem::path& parent, const std::filesystem::path& folder,
+                const std::filesystem::path& result);
   ~StagingFolder();
   StagingFolder(const StagingFolder&) = delete;
   StagingFolder& operator=(const StagingFolder&) = delete;
@@ -28,6 +30,9 @@ class StagingFolder {
   std::filesystem::path path_;  ///< empty once it became something else
   int descriptor_ = -1;         ///< holds the lock
 };
+
+/// Where a file that is on its way will stand, for messages; any other path as it is.
+std::filesystem::path final_path(const std::filesystem::path& path);
 
 /// Held while results are put in place, so that a late end (see note_interrupts) does not come in between.
 std::unique_lock<std::mutex> hold_off_end();
