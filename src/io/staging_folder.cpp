@@ -23,7 +23,7 @@ constexpr const char* kPrefix = ".heightlight-";
 
 /// Those of this process. Never destroyed: the end of the process needs them.
 struct Staged {
-  std::mutex mutex;
+  std::recursive_mutex mutex;  ///< recursive: errors found while it is held ask for final paths
   std::map<fs::path, fs::path> folders;  ///< and where what they hold is to stand
 };
 
@@ -129,7 +129,7 @@ fs::path final_path(const fs::path& path) {
   return found == staged_here().folders.end() ? path : found->second / path.filename();
 }
 
-std::unique_lock<std::mutex> hold_off_end() { return std::unique_lock(staged_here().mutex); }
+std::unique_lock<std::recursive_mutex> hold_off_end() { return std::unique_lock(staged_here().mutex); }
 
 void end_without_staging(int exit_code) {
   staged_here().mutex.lock();  // and never unlocked: nothing is put in place any more

@@ -35,7 +35,7 @@ class StagingFolder {
 std::filesystem::path final_path(const std::filesystem::path& path);
 
 /// Held while results are put in place, so that a late end (see note_interrupts) does not come in between.
-std::unique_lock<std::mutex> hold_off_end();
+std::unique_lock<std::recursive_mutex> hold_off_end();
 
 /// Removes the staging folders of this process and ends it at once.
 [[noreturn]] void end_without_staging(int exit_code);
