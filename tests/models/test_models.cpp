@@ -53,7 +53,7 @@ TEST_CASE("closed forms are finite, in [0, 1] and rise with albedo, to the edges
           REQUIRE(std::isfinite(*total));
           CHECK(*total >= 0);
           CHECK(*total <= 1 + 1e-15);       // identity: a few roundings of 1
-          CHECK(*total >= before - 1e-15);  // identity
+          CHECK(*total >= before - 4e-15);  // identity
           before = *total;
         }
       }
@@ -230,16 +230,16 @@ TEST_CASE("the blur is a mean: constants stay, it commutes with shifts, holes ar
   Map shifted = sky;
   for (int row = 0; row < 17; ++row) {
     for (int column = 0; column < 24; ++column) {
-      shifted(row, column) = sky((row + 5) % 17, (column + 9) % 24);
+      shifted((row + 5) % 17, (column + 9) % 24) = sky(row, column);
     }
   }
   const Map blurred = blur_seen(sky, surface, 2);
   const Map blurred_shifted = blur_seen(shifted, shifted_surface, 2);
   for (int row = 0; row < 17; ++row) {
     for (int column = 0; column < 24; ++column) {
-      const float before = blurred((row + 5) % 17, (column + 9) % 24);
+      const float before = blurred(row, column);
       if (std::isnan(before)) continue;
-      CHECK(blurred_shifted(row, column) == Approx(before).margin(1e-6));
+      CHECK(blurred_shifted((row + 5) % 17, (column + 9) % 24) == Approx(before).margin(1e-6));
     }
   }
   CHECK_THROWS_AS(blur_seen(Map(3, 3, 1.0F), surface, 2), Error);
