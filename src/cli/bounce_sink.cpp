@@ -4,6 +4,7 @@
 
 #include "cli/simulation_files.h"
 #include "cli/stop_watch.h"
+#include "heightlight/models.h"
 
 namespace heightlight {
 namespace {
@@ -17,14 +18,18 @@ BounceSink::BounceSink(const Transport& transport, const Surface& surface, const
     : surface_(surface),
       options_(options),
       folder_(folder),
+      sky_view_factor_(transport.sky_view_factor),
       alpha_(transport.ambient_occlusion, AoKind::ambient_occlusion, options.bins),
-      sky_(transport.sky_view_factor, AoKind::sky_view_factor, options.bins) {}
+      sky_(transport.sky_view_factor, AoKind::sky_view_factor, options.bins) {
+  seen_.expected = expected_seen(transport.sky_view_factor, surface).value;
+}
 
 void BounceSink::take(int b, const TexelVector& irradiance) {
   StopWatch watch;
   alpha_.add(irradiance);
   sky_.add(irradiance);
   seconds_ += watch.lap();
+  if (b == 1) seen_.mean = measured_seen(sky_view_factor_, irradiance, surface_).value;
   if (b < kPreviewedBounces) first_.push_back(to_map(irradiance, surface_));
   if (!options_.save_bounces) return;
   char name[32];

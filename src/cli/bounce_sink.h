@@ -24,12 +24,15 @@ class BounceSink {
   const std::vector<Map>& first() const { return first_; }
   /// Over α, and over A.
   std::vector<BounceCurves> curves() const { return {alpha_.curves(), sky_.curves()}; }
+  const SeenSky& seen() const { return seen_; }
   double seconds() const { return seconds_; }  ///< spent on the curves
 
  private:
   const Surface& surface_;
   const SimulateOptions& options_;
   StagedFolder& folder_;
+  const Map& sky_view_factor_;
+  SeenSky seen_;
   CurveBuilder alpha_;
   CurveBuilder sky_;
   std::vector<Map> first_;

@@ -49,6 +49,7 @@ Json describe_map(const ManifestMap& map, const Checksum& checksum, const LoadOp
           {"boundary", load.boundary ? Json(to_string(*load.boundary)) : Json(nullptr)},
           {"no_data", or_null(load.no_data)},
           {"channel", or_null(load.channel)},
+          {"shrink", load.shrink},
           {"invert", load.invert}};
 }
 

@@ -77,7 +77,8 @@ Json describe_run(const DatasetRun& run, const Json& summary) {
           {"surface", map},
           {"options", describe_options(run)},
           {"visibility", summary.at("visibility")},
-          {"energy", summary.at("energy")}};
+          {"energy", summary.at("energy")},
+          {"seen", summary.at("seen")}};
 }
 
 Json describe_failure(const DatasetRun& run) {

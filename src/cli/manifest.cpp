@@ -67,12 +67,13 @@ void read_file(const std::filesystem::path& manifest, const JsonPlace& place, co
   if (const auto texel = place.find("texel")) load.texel = read_spacing(*texel);
   if (const auto value = place.find("no_data")) load.no_data = value->number();
   if (const auto channel = place.find("channel")) load.channel = channel->text();
+  if (const auto shrink = place.find("shrink")) load.shrink = static_cast<int>(shrink->integer(1, 32768));
   if (const auto invert = place.find("invert")) load.invert = invert->flag();
 }
 
 ManifestMap read_map(const std::filesystem::path& manifest, const JsonPlace& place) {
-  place.check_keys({"file", "name", "relief", "width", "texel", "boundary", "no_data", "channel", "invert",
-                    "shape", "size", "seed"});
+  place.check_keys({"file", "name", "relief", "width", "texel", "boundary", "no_data", "channel", "shrink",
+                    "invert", "shape", "size", "seed"});
   const auto file = place.find("file");
   const auto shape = place.find("shape");
   if (file.has_value() == shape.has_value()) throw place.error("must have either a \"file\" or a \"shape\"");
@@ -82,7 +83,7 @@ ManifestMap read_map(const std::filesystem::path& manifest, const JsonPlace& pla
     read_shape(place, *shape, map);
   } else {
     place.check_keys(
-        {"file", "name", "relief", "width", "texel", "boundary", "no_data", "channel", "invert"});
+        {"file", "name", "relief", "width", "texel", "boundary", "no_data", "channel", "shrink", "invert"});
     read_file(manifest, place, *file, map);
   }
   LoadOptions& load = map.load;
@@ -239,7 +240,7 @@ std::string describe_manifest() {
       {"name": "cast", "visibility": "rays", "rays": 1000, "seed": 3, "save_bounces": true}
     ]
   }
-Only "maps" must be there. Maps also take "relief", "width", "channel" and "invert", as simulate does.
+Only "maps" must be there. Maps also take "relief", "width", "channel", "shrink" and "invert", as simulate does.
 )";
 }
 

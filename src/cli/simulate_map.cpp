@@ -137,6 +137,7 @@ Simulation simulate_map(const SimulateOptions& options) {
   BounceSink sink(*transport, surface, options, folder);
   const SolvedBounces solved = solve_bounces(*transport, surface, albedo, options,
                                              simulation.plan.has_value(), sink, simulation.energy);
+  simulation.seen = sink.seen();
   seconds.curves = sink.seconds();
   seconds.bounces = watch.lap() - seconds.curves;
   estimate_errors(options, surface, *transport, solved.totals[0], albedo, simulation);

@@ -23,7 +23,7 @@ constexpr const char* kPrefix = ".heightlight-";
 
 /// Those of this process. Never destroyed: the end of the process needs them.
 struct Staged {
-  std::recursive_mutex mutex;  ///< recursive: errors found while it is held ask for final paths
+  std::recursive_mutex mutex;            ///< recursive: errors found while it is held ask for final paths
   std::map<fs::path, fs::path> folders;  ///< and where what they hold is to stand
 };
 
