@@ -29,10 +29,14 @@ constexpr double kTotalSeen = 0.75;
 /// Azimuths from which an error follows by K^(−3/2), as it does for horizons with jumps.
 constexpr int kTriedAzimuths = 16;
 constexpr double kAzimuthOrder = 1.5;
+constexpr int kFewestAzimuths = 4;
 
-/// Cost of a walk's azimuth by its fineness, in units of ν: measured 8.2, 10, 16 and 29 ns for ν of 8, 16,
-/// 32, 64.
-double azimuth_cost(int fineness) { return 12 + fineness; }
+/// Shares of the peaks tried: 0, 0.3 and this.
+constexpr float kHighestPeakShare = 0.6F;
+
+/// Cost of a walk's azimuth by its fineness, in units of ν: measured 4.8, 6.4, 8.1, 11.2 and 14.3 ns for ν of
+/// 8, 12, 16, 24 and 32.
+double azimuth_cost(int fineness) { return 4 + fineness; }
 
 /// The walk that should reach the error at the least cost, as far as its sampling goes: what that leaves of
 /// the error, azimuths must fill. Where no sampling is good enough, the best.
@@ -45,17 +49,17 @@ WalkOptions choose_sampling(HorizonPilot& pilot, double error, int azimuths, dou
   WalkOptions best_sampled;
   double least = std::numeric_limits<double>::infinity();
   double least_sampling = least;
-  float share = 0.3F;  // the best so far: finer walks want the same, or more
-  for (const int fineness : {8, 12, 16, 24, 32, 48, 64, 96, 128}) {
+  float share = 0;  // the best so far: finer walks want the same, or more
+  for (const int fineness : {8, 12, 16, 20, 24, 32, 48, 64, 96, 128}) {
     // A finer walk that had no sampling error at all would not pay any more.
     if (azimuths_for(error) * azimuth_cost(fineness) >= least) break;
     double sampling = pilot.sampling_error(fineness, share);
-    for (const float other : {share - 0.3F, share + 0.3F}) {
-      if (other < -0.01F || other > 0.61F) continue;
-      const double found = pilot.sampling_error(fineness, other);
-      if (found >= sampling) continue;
+    while (share < kHighestPeakShare) {
+      const float more = share + 0.3F;
+      const double found = pilot.sampling_error(fineness, more);
+      if (found >= sampling) break;
       sampling = found;
-      share = other;
+      share = more;
     }
     if (sampling < least_sampling) best_sampled = {2, fineness, share};
     least_sampling = std::min(least_sampling, sampling);
@@ -71,17 +75,28 @@ WalkOptions choose_sampling(HorizonPilot& pilot, double error, int azimuths, dou
   return best_sampled;
 }
 
-/// The fewest azimuths that leave no more than the error, in steps of an eighth, from below the number that a
-/// few tell.
+/// The fewest azimuths that leave no more than the error, in steps of a tenth from the number that a few
+/// tell, upwards or downwards.
 WalkOptions choose_azimuths(HorizonPilot& pilot, WalkOptions options, double error, double& reached) {
   options.azimuths = kTriedAzimuths;
   const double tried = pilot.azimuth_error(options);
-  const double guess = 0.8 * kTriedAzimuths * std::pow(tried / error, 1 / kAzimuthOrder);
-  int azimuths = std::clamp(static_cast<int>(guess) / 2 * 2, 4, HorizonPilot::kManyAzimuths);
-  for (;; azimuths += std::max(2, azimuths / 16 * 2)) {
-    options.azimuths = azimuths;
+  const double guess = kTriedAzimuths * std::pow(tried / error, 1 / kAzimuthOrder);
+  options.azimuths =
+      std::clamp(static_cast<int>(guess) / 2 * 2, kFewestAzimuths, HorizonPilot::kManyAzimuths);
+  reached = pilot.azimuth_error(options);
+  const auto step = [](int azimuths) { return std::max(2, azimuths / 20 * 2); };
+  while (reached > error && options.azimuths < HorizonPilot::kManyAzimuths) {
+    options.azimuths += step(options.azimuths);
     reached = pilot.azimuth_error(options);
-    if (reached <= error || azimuths >= HorizonPilot::kManyAzimuths) break;
+    if (reached <= error) return options;
+  }
+  while (reached <= error && options.azimuths > kFewestAzimuths) {
+    WalkOptions fewer = options;
+    fewer.azimuths -= step(options.azimuths);
+    const double found = pilot.azimuth_error(fewer);
+    if (found > error) break;
+    options = fewer;
+    reached = found;
   }
   return options;
 }
