@@ -168,7 +168,7 @@ void WalkTile::load(const Surface& surface, const HeightMips& mips, const WalkOp
   wide_groups = span_groups(*this, kWideGroup);
   windows.resize(static_cast<std::size_t>(rings) + 1);
   place(windows[0], 0, near_reach(options), row, column);
-  fill_nearest(windows[0], map, surface.tiles(), reference);
+  fill_nearest(windows[0], mips.level_0(surface), surface.tiles(), reference);
   for (int ring = 1; ring <= rings; ++ring) {
     HeightWindow& window = windows[static_cast<std::size_t>(ring)];
     place(window, ring_level(ring), 2 * options.fineness + 1, row, column);
