@@ -15,10 +15,6 @@ constexpr double kAim = 0.9;
 constexpr double kSamplingShare = 0.9;
 constexpr double kLinkShare = 0.9;
 
-/// An error of what one gather of the direct light brings becomes one of the total at ρ = 0.8 that is
-/// smaller: the total is the more even field. Measured 0.4 (smooth) to 0.7 (steep bricks).
-constexpr double kTotalPerGather = 0.7;
-
 /// Where the total alone is wanted: the share of its error that the sky may take, at albedo kAlbedo, what is
 /// seen having a mean total of kTotalSeen at least (deep joints between bricks: 0.6; open ground: 0.9 and
 /// more).
@@ -101,8 +97,14 @@ WalkOptions choose_azimuths(HorizonPilot& pilot, WalkOptions options, double err
   return options;
 }
 
+/// Radiosity / π at albedo kAlbedo, were every receiver to see only its like: ρA / (1 − ρ(1 − A)). What links
+/// make of it errs by about as much as what they make of the true one.
+TexelVector guess_radiosity(const TexelVector& direct) {
+  return (kAlbedo * direct.array() / (1 - kAlbedo * (1 - direct.array()))).matrix();
+}
+
 /// The cheapest links of all receivers that are good enough, else the best.
-WalkOptions choose_links(HorizonPilot& pilot, const LightMips& light, const TexelVector& direct,
+WalkOptions choose_links(HorizonPilot& pilot, const LightMips& light, const TexelVector& radiosity,
                          float peak_share, double error, double& reached) {
   WalkOptions best;
   reached = std::numeric_limits<double>::infinity();
@@ -119,7 +121,7 @@ WalkOptions choose_links(HorizonPilot& pilot, const LightMips& light, const Texe
                                                         {48, 32}}};
   for (const auto& [azimuths, fineness] : kLadder) {
     const WalkOptions options{azimuths, fineness, peak_share};
-    const double links = kTotalPerGather * pilot.link_error(options, light, direct);
+    const double links = pilot.link_error(options, light, radiosity);
     if (links < reached) {
       reached = links;
       best = options;
@@ -157,20 +159,22 @@ std::unique_ptr<SeenLight> plan_links(HorizonPilot& pilot, const HeightMips& mip
   const Surface& surface = pilot.surface();
   plan.links.peak_share = plan.sky.peak_share;
   if (!pilot.empty()) {
+    const TexelVector radiosity = guess_radiosity(direct);
     for (const int stride : {8, 4, 2}) {
       if (!ReceiverLattice::fits(surface, stride)) continue;
       plan.link_stride = stride;
       plan.links = {12, 8, plan.sky.peak_share};
       auto light = std::make_unique<SeenLight>(surface, mips, plan, options);
       TexelVector gathered(direct.size());
-      light->gather(direct, direct, gathered);
-      plan.link_error = kTotalPerGather * pilot.gather_error(direct, gathered, direct);
+      light->gather(radiosity, direct, gathered);
+      plan.link_error = pilot.gather_error(radiosity, gathered, direct);
       if (plan.link_error <= kLinkShare * kAim * goal.error) return light;
     }
     plan.link_stride = 1;
     LightMips light(surface);
-    light.fill(direct);
-    plan.links = choose_links(pilot, light, direct, plan.sky.peak_share, kAim * goal.error, plan.link_error);
+    light.fill(radiosity);
+    plan.links =
+        choose_links(pilot, light, radiosity, plan.sky.peak_share, kAim * goal.error, plan.link_error);
   }
   return std::make_unique<SeenLight>(surface, mips, plan, options);
 }

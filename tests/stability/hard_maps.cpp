@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -20,6 +21,13 @@ void add_both(std::vector<HardMap>& maps, const std::string& name, int width, in
   }
 }
 
+/// Without trailing zeros.
+std::string to_text(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
 /// Waves of relief 1 on a map of width 1, without a symmetry.
 double wave(int row, int column, double size) {
   return 0.5 + 0.3 * std::sin(6.2831853 * column / size) +
@@ -28,7 +36,7 @@ double wave(int row, int column, double size) {
 
 void add_reliefs(std::vector<HardMap>& maps) {
   for (const double relief : {1e-9, 1e-6, 1e-3, 1e3, 1e6}) {
-    add_both(maps, "waves of relief " + std::to_string(relief), 12, 12,
+    add_both(maps, "waves of relief " + to_text(relief), 12, 12,
              [=](int row, int column) { return relief * wave(row, column, 12); });
   }
   maps.push_back({"rough, relief 100", make_rough_map(11, 13, Boundary::tile, 100, 0, 3)});
@@ -36,9 +44,9 @@ void add_reliefs(std::vector<HardMap>& maps) {
 
 void add_single_texels(std::vector<HardMap>& maps) {
   for (const double depth : {-5.0, -0.1, 0.1, 5.0}) {
-    add_both(maps, (depth < 0 ? "one pit of " : "one spike of ") + std::to_string(std::fabs(depth)), 9, 9,
+    add_both(maps, (depth < 0 ? "one pit of " : "one spike of ") + to_text(std::fabs(depth)), 9, 9,
              [=](int row, int column) { return row == 4 && column == 4 ? depth : 0.0; });
-    add_both(maps, (depth < 0 ? "a slit of " : "a fence of ") + std::to_string(std::fabs(depth)), 9, 9,
+    add_both(maps, (depth < 0 ? "a slit of " : "a fence of ") + to_text(std::fabs(depth)), 9, 9,
              [=](int, int column) { return column == 4 ? depth : 0.0; });
   }
   add_both(maps, "a well a thousand times as deep as the map is wide", 9, 9, [](int row, int column) {
