@@ -44,7 +44,7 @@ void walk_all(const Surface& surface, const ReferenceOptions& options, Reference
   reference.azimuths = options.azimuths;
   reference.ambient_occlusion = reference.sky_view_factor = reference.half_sky =
       Map(surface.width(), surface.height());
-  reference.bent_normal = Image<Eigen::Vector3f>(surface.width(), surface.height());
+  reference.bent_normal = Image<Eigen::Vector3f>(surface.width(), surface.height(), Eigen::Vector3f::UnitZ());
   Progress progress("reference", surface.height(), options.quiet);
   parallel_for(
       surface.height(),

@@ -84,7 +84,7 @@ ScreenSpaceView gtao(const DepthBuffer& depth, const GtaoOptions& options) {
   }
   if (!options.bent_normal) return view;
   const Map* bent = results.data() + results.size() - 3;
-  view.bent_normal = Image<Eigen::Vector3f>(depth.width, depth.height);
+  view.bent_normal = Image<Eigen::Vector3f>(depth.width, depth.height, Eigen::Vector3f::UnitZ());
   for (std::size_t i = 0; i < view.bent_normal.size(); ++i) {
     const Eigen::Vector3f sum(bent[0].values[i], bent[1].values[i], bent[2].values[i]);
     view.bent_normal.values[i] = std::isnan(depth.row_height.values[i])

@@ -36,7 +36,7 @@ struct PointPass {
   std::array<float, kNoiseRanks> turn_sine{};
   /// Of the surface, one per albedo that varies, all of the map's size: read at the first place that lies
   /// below it.
-  std::vector<const Map*> albedos;
+  std::vector<const Map*> albedos{};
 };
 
 /// Sums over the points, per receiver in a row of the map.

@@ -204,7 +204,7 @@ TEST_CASE("with slices and steps GTAO converges to the exact walk", "[screenspac
   const Surface surface = build_surface(make_synth_map(shape.c_str(), 64, boundary, 0.1));
   const DepthBuffer depth = make_depth_buffer(surface);
   Map reference(64, 64);
-  Image<Eigen::Vector3f> bent(64, 64);
+  Image<Eigen::Vector3f> bent(64, 64, Eigen::Vector3f::UnitZ());
   const ExactWalker walker(surface, 512);
   parallel_for(64, [&](std::int64_t row) {
     SliceView view;
