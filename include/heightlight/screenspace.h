@@ -65,6 +65,7 @@ struct ScreenSpaceView {
   Map ambient_occlusion;  ///< its word for α; 0 × 0 where it has none
   Image<Eigen::Vector3f> bent_normal;  ///< unit, cosine weighted, world axes; 0 × 0 where there is none
   Map half_sky;  ///< E/π under a sky that shines only from y > 0 (the image's top); 0 × 0 where there is none
+  Map seen;      ///< n, the mean sky view factor of what a texel sees, [0, 1]; 0 × 0 where there is none
   std::vector<Map> totals;       ///< E/π with what the method knows of bounces, per albedo; may be empty
   double samples_per_texel = 0;  ///< depths that were looked up
 };
@@ -105,6 +106,12 @@ struct GtaoOptions {
 
 /// Throws UsageError for options outside their range.
 ScreenSpaceView gtao(const DepthBuffer& depth, const GtaoOptions& options);
+
+/// GTAO, and along the same horizons one bounce gathered: a sample that raises the horizon from m to m' is
+/// seen through the form factor between them, and sends what a first pass found as its A. Fills `seen`, with
+/// which bounced_total (models.h) gives all bounces at any albedo. Bent normals, falloff and thickness are
+/// left out. Throws as gtao does.
+ScreenSpaceView gtao_with_bounce(const DepthBuffer& depth, const GtaoOptions& options);
 
 /// HBAO (Bavoil, Sainz and Dimitrov 2008, as file 000 describes it): horizons above the tangent plane's angle
 /// t,

@@ -15,7 +15,7 @@ bool has(const Map& map) { return map.size() > 0; }
 }  // namespace
 
 bool can_evaluate(const ClosedForm& form, const Estimate& estimate) {
-  if (form.extra == ExtraInput::seen) return false;
+  if (form.extra == ExtraInput::seen && !has(estimate.seen)) return false;
   if (form.extra != ExtraInput::none && !has(estimate.sky_view_factor)) return false;
   return has(form.kind == AoKind::ambient_occlusion ? estimate.ambient_occlusion : estimate.sky_view_factor);
 }
@@ -38,6 +38,7 @@ Map evaluate_closed_form(const ClosedForm& form, const Estimate& estimate, const
       inputs.sky_view_factor = SkyViewFactor<double>(value);
       inputs.expected_seen = expected;
       if (has(blurred)) inputs.blurred = SeenSkyViewFactor<double>(double{blurred.values[at]});
+      if (has(estimate.seen)) inputs.seen = SeenSkyViewFactor<double>(double{estimate.seen.values[at]});
       const std::optional<double> found =
           std::isnan(value) ? std::nullopt : form.evaluate(inputs, albedo.reflectance[i]);
       total.values[at] = found ? static_cast<float>(*found) : std::numeric_limits<float>::quiet_NaN();

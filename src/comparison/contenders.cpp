@@ -93,6 +93,7 @@ Estimate run_screen_space(const ComparedScene& scene, const ScreenSpaceMethod& m
   estimate.ambient_occlusion = std::move(view.ambient_occlusion);
   estimate.bent_normal = std::move(view.bent_normal);
   estimate.half_sky = std::move(view.half_sky);
+  estimate.seen = std::move(view.seen);
   estimate.totals = std::move(view.totals);
   estimate.samples_per_texel = view.samples_per_texel;
   return estimate;

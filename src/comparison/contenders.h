@@ -15,6 +15,7 @@ struct Estimate {
   Map ambient_occlusion;
   Image<Eigen::Vector3f> bent_normal;
   Map half_sky;             ///< E/π under a sky that shines only from y > 0
+  Map seen;                 ///< n, the mean sky view factor of what a texel sees
   std::vector<Map> totals;  ///< E/π per albedo
   double samples_per_texel = 0;
 };

@@ -42,7 +42,7 @@ struct Reference {
   double sky_rmse = 0;       ///< of A, against exact walks along kCheckAzimuths azimuths
   double bent_rmse_deg = 0;  ///< of the bent normal, likewise
   double ray_rmse = 0;       ///< of A, against kCheckRays rays, which share no code with the walks; their own
-                        ///< error is in it
+                             ///< error is in it
   std::vector<double> total_rmse;  ///< per albedo, against exact gathers (HorizonCheck)
 };
 

@@ -124,6 +124,18 @@ void add_gtao_sweeps(std::vector<ScreenSpaceMethod>& methods) {
   }
 }
 
+void add_gtao_bounces(std::vector<ScreenSpaceMethod>& methods) {
+  const auto add = [&](const GtaoOptions& options, bool shown) {
+    methods.push_back(
+        {"gtao with bounce", in_words(options), shown, [options](const DepthBuffer& depth, const Albedos&) {
+           return gtao_with_bounce(depth, in_world_units(options, depth));
+         }});
+  };
+  add(gtao_preset(3, 3, kUsualReach, DirectionNoise::spatial), true);
+  add(gtao_preset(9, 6, kUsualReach, DirectionNoise::spatial), false);
+  add(without_noise(16, 64), true);
+}
+
 void add_hbao(std::vector<ScreenSpaceMethod>& methods) {
   const auto add = [&](HbaoOptions options, bool shown) {
     std::string words = slices_in_words(options.slices, options.steps, options.reach, options.distribution,
@@ -191,6 +203,7 @@ const std::vector<ScreenSpaceMethod>& screen_space_methods() {
     add_gtao_presets(methods);
     add_gtao_variants(methods);
     add_gtao_sweeps(methods);
+    add_gtao_bounces(methods);
     add_hbao(methods);
     add_ambient_transfer(methods);
     add_ssdo(methods);
