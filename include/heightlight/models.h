@@ -276,9 +276,9 @@ SeenSkyViewFactor<double> expected_seen(const Map& sky_view_factor, const Surfac
 SeenSkyViewFactor<double> measured_seen(const Map& sky_view_factor, const TexelVector& first_bounce,
                                         const Surface& surface);
 
-/// W: the sky view factor averaged by a Gaussian of `sigma` texels > 0 (cut at 3 σ, wrapped where the map
-/// tiles) with weights (1 − A)/n_z, since occluded places are what is seen. The plain A where nothing near is
-/// occluded; NaN where missing.
-Map blur_seen(const Map& sky_view_factor, const Surface& surface, double sigma);
+/// W: the sky view factor averaged by a Gaussian of `sigma` texels > 0 (cut at 3 σ; wrapped where the map
+/// tiles, ended at its edges where not) with weights 1 − A, since occluded places are what is seen. From the
+/// sky view factor alone. The plain A where nothing near is occluded; NaN where missing.
+Map blur_seen(const Map& sky_view_factor, bool tiles, double sigma = 3);
 
 }  // namespace heightlight

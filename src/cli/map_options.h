@@ -15,7 +15,7 @@ struct MapOptions {
   LoadOptions load;
 };
 
-/// Adds MAP and `--relief --width --texel --boundary --no-data --channel --invert`.
+/// Adds MAP and `--relief --width --texel --boundary --no-data --channel --shrink --invert`.
 void add_map_options(CLI::App& command, MapOptions& options);
 
 /// The options that say how a command runs.

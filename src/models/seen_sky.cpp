@@ -86,17 +86,18 @@ SeenSkyViewFactor<double> measured_seen(const Map& sky_view_factor, const TexelV
   return SeenSkyViewFactor<double>(weights > 0 ? sum / weights : 1);
 }
 
-Map blur_seen(const Map& sky_view_factor, const Surface& surface, double sigma) {
-  check_size(sky_view_factor, surface);
-  Image<double> weights(surface.width(), surface.height());
+Map blur_seen(const Map& sky_view_factor, bool tiles, double sigma) {
+  Image<double> weights(sky_view_factor.width, sky_view_factor.height);
   Image<double> weighted = weights;
   for (std::size_t i = 0; i < weights.size(); ++i) {
-    weights.values[i] = seen_weight(sky_view_factor, surface, i);
-    if (weights.values[i] > 0) weighted.values[i] = weights.values[i] * double{sky_view_factor.values[i]};
+    const double sky = clamp_share(double{sky_view_factor.values[i]});
+    if (std::isnan(sky)) continue;
+    weights.values[i] = 1 - sky;
+    weighted.values[i] = (1 - sky) * sky;
   }
   const std::vector<double> kernel = half_kernel(sigma);
-  weights = blur(weights, kernel, surface.tiles());
-  weighted = blur(weighted, kernel, surface.tiles());
+  weights = blur(weights, kernel, tiles);
+  weighted = blur(weighted, kernel, tiles);
   Map blurred = sky_view_factor;
   for (std::size_t i = 0; i < blurred.size(); ++i) {
     if (std::isnan(blurred.values[i]) || weights.values[i] <= 0) continue;
