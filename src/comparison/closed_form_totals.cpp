@@ -8,8 +8,6 @@
 namespace heightlight {
 namespace {
 
-constexpr double kBlurSigma = 3.5;  // texels
-
 bool has(const Map& map) { return map.size() > 0; }
 
 }  // namespace
@@ -25,7 +23,7 @@ Map evaluate_closed_form(const ClosedForm& form, const Estimate& estimate, const
   const Map& occlusion =
       form.kind == AoKind::ambient_occlusion ? estimate.ambient_occlusion : estimate.sky_view_factor;
   Map blurred;
-  if (form.extra == ExtraInput::blurred) blurred = blur_seen(estimate.sky_view_factor, surface, kBlurSigma);
+  if (form.extra == ExtraInput::blurred) blurred = blur_seen(estimate.sky_view_factor, surface.tiles());
   SeenSkyViewFactor<double> expected{0};
   if (form.extra == ExtraInput::expected_seen) expected = expected_seen(estimate.sky_view_factor, surface);
   Map total(surface.width(), surface.height());

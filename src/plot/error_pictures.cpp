@@ -83,10 +83,15 @@ Image<Rgb8> difference_picture(const Map& differences) {
 
 void plot_error_sheet(const std::filesystem::path& png, const std::vector<ErrorMap>& maps,
                       const std::string& title) {
+  constexpr int kPanelWidth = 330;
+  constexpr int kPanelHeight = 385;
+  constexpr int kHead = 40;
+  constexpr int kFoot = 80;
   const int columns = std::min(4, std::max(1, static_cast<int>(maps.size())));
   const int rows = std::max(1, (static_cast<int>(maps.size()) + columns - 1) / columns);
+  const double height = kPanelHeight * rows + kHead + kFoot;
   const GnuplotResult result = run_gnuplot([&](gnuplotio::Gnuplot& script) {
-    script << "set terminal pngcairo size " << 330 * columns << ',' << 350 * rows + 110
+    script << "set terminal pngcairo size " << kPanelWidth * columns << ',' << height
            << " font 'sans,10' background 'white'\n";
     for (std::size_t i = 0; i < maps.size(); ++i) {
       send_matrix(script, "map" + std::to_string(i), thin_out(maps[i].differences));
@@ -96,28 +101,24 @@ void plot_error_sheet(const std::filesystem::path& png, const std::vector<ErrorM
            << " font ':Bold,14' noenhanced\n"
            << "set cbrange [" << -kFullDifference << ':' << kFullDifference << "]\n"
            << "unset key\nunset tics\nset cbtics\nset border lw 0.6 lc rgb '#444444'\nset size ratio -1\n"
-           << "full = " << 1.0 / columns << "\ntall = " << 350.0 / (350 * rows + 110) << "\nunset colorbox\n";
+           << "set colorbox horizontal user origin 0.3," << 50 / height << " size 0.4," << 18 / height
+           << "\nset cblabel 'sky view factor, method − reference'\n";
     for (std::size_t i = 0; i < maps.size(); ++i) {
       const int row = static_cast<int>(i) / columns;
       const int column = static_cast<int>(i) % columns;
+      const double top = kFoot + kPanelHeight * (rows - row);  // pixels from below
       const Map thin = thin_out(maps[i].differences);
       char rmse[64];
       std::snprintf(rmse, sizeof rmse, "RMSE %.4f, bias %+.4f", maps[i].error.rmse, maps[i].error.bias);
-      if (i == 0) {
-        script << "set colorbox horizontal user origin 0.3,0.05 size 0.4,0.015\n"
-               << "set cblabel 'sky view factor, method − reference'\n";
-      } else {
-        script << "unset colorbox\n";
-      }
       script << "set lmargin at screen " << (column + 0.03) / columns << "\nset rmargin at screen "
-             << (column + 0.97) / columns << "\nset tmargin at screen 0.965 - " << row
-             << "*tall - 0.17*tall\n"
-             << "set bmargin at screen 0.965 - " << row << "*tall - 0.98*tall\n"
-             << "set title " << gnuplot_quoted(maps[i].method + ": " + maps[i].parameters) << ".\"\\n"
-             << rmse << "\" noenhanced offset 0,-0.6\n"
+             << (column + 0.97) / columns << "\nset tmargin at screen " << (top - 65) / height
+             << "\nset bmargin at screen " << (top - kPanelHeight + 8) / height << "\nset title "
+             << gnuplot_quoted(maps[i].method) << ".\"\\n\"." << gnuplot_quoted(maps[i].parameters)
+             << ".\"\\n"
+             << rmse << "\" noenhanced offset 0,-0.6 font ',9'\n"
              << "set xrange [-0.5:" << thin.width - 0.5 << "]\nset yrange [" << thin.height - 0.5
              << ":-0.5]\n"
-             << "plot $map" << i << " matrix with image\n";
+             << "plot $map" << i << " matrix with image\nunset colorbox\n";
     }
     if (maps.empty()) script << "set xrange [0:1]\nset yrange [0:1]\nplot NaN\n";
     script << "unset multiplot\n";

@@ -102,12 +102,16 @@ void send_panel(Gnuplot& script, const std::vector<ComparisonRow>& rows, const s
   std::string plot = "plot $front using 1:2 with steps lw 1.4 lc rgb '#555555' title 'Pareto front'";
   Points front;
   std::string labels;
+  double last_labelled = 0;
   for (const ComparisonRow* row : pareto_front(rows, quantity)) {
     if (!(row->error.rmse > 0)) continue;
     front.push_back({row->cost.core_seconds, row->error.rmse});
+    // Labels that would lie on top of each other are left out; all rows stand in the table.
+    if (last_labelled > 0 && row->error.rmse > last_labelled / 1.6) continue;
+    last_labelled = row->error.rmse;
     labels += "set label " + gnuplot_quoted(row->parameters) + " at " +
               std::to_string(row->cost.core_seconds) + "," + std::to_string(row->error.rmse) +
-              " left rotate by -35 offset 0.4,-0.4 font ',7' tc rgb '#555555' noenhanced front\n";
+              " right offset -0.8,-0.5 font ',7' tc rgb '#555555' noenhanced front\n";
   }
   send_points(script, "front", front);
   for (std::size_t i = 0; i < methods.size(); ++i) {

@@ -80,6 +80,7 @@ ScreenSpaceView ambient_transfer(const DepthBuffer& depth, const std::vector<Sur
   for (const SurfaceAlbedo& albedo : albedos) {
     if (albedo.map) varying.push_back(albedo.map);
   }
+  if (varying.size() > kMostAlbedos) throw UsageError("ambient transfer: at most three albedos may vary");
   std::vector<Map> sums = trace(depth, varying, options);
   if (options.noise != DirectionNoise::none) sums = gather_bilaterally(depth, sums);
   ScreenSpaceView view;

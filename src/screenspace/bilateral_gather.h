@@ -9,7 +9,8 @@
 // Any such window holds every rank of the noise once. It reaches from one texel before to two texels after
 // the receiver: half a texel off its middle, as 4 × 4 windows are.
 //
-// A neighbour belongs to the same surface where it lies within a tolerance of the receiver's tangent plane.
+// A neighbour belongs to the same surface where it lies within a tolerance of the receiver's tangent plane,
+// and its normal is like the receiver's.
 
 namespace heightlight {
 
@@ -17,13 +18,17 @@ constexpr int kGatherBefore = 1;
 constexpr int kGatherAfter = 2;
 
 /// Distance from the tangent plane up to which neighbours count, in texels.
-constexpr double kGatherTolerance = 1;
+constexpr double kGatherTolerance = 0.3;
+
+/// Cosine between normals from which on neighbours count.
+constexpr float kGatherCosine = 0.9F;
 
 /// What a row's receivers gather from: one or more results per texel, all of the depth buffer's size.
 struct GatherPass {
   const DepthBuffer& depth;
   const std::vector<Map>& results;
   float tolerance = 0;  ///< world units
+  float cosine = kGatherCosine;
 };
 
 /// Writes the means of columns [begin, end) of a row; NaN where the sample is missing. The readable one.

@@ -45,6 +45,7 @@ HWY_INLINE void gather_lanes_at(const GatherPass& pass, const std::array<int, kW
   const VF slope_y = hn::LoadU(kF, depth.row_slope_y.values.data() + here);
   const VF normal_z = hn::LoadU(kF, depth.row_normal_z.values.data() + here);
   const VF tolerance = hn::Set(kF, pass.tolerance);
+  const VF least_cosine = hn::Set(kF, pass.cosine);
   VF count = hn::Zero(kF);
   std::array<VF, kMostResults> sums;
   for (std::size_t c = 0; c < means.size(); ++c) sums[c] = hn::Zero(kF);
@@ -57,7 +58,12 @@ HWY_INLINE void gather_lanes_at(const GatherPass& pass, const std::array<int, kW
       const std::size_t there = depth.row_height.index(from, column + right);
       const VF plane = hn::Add(hn::Mul(slope_x, x), hn::Mul(slope_y, y));
       const VF above = hn::Sub(hn::Sub(hn::LoadU(kF, depth.row_height.values.data() + there), height), plane);
-      const auto counts = hn::Le(hn::Mul(hn::Abs(above), normal_z), tolerance);  // never of NaN
+      const VF level = hn::Add(hn::Mul(slope_x, hn::LoadU(kF, depth.row_slope_x.values.data() + there)),
+                               hn::Mul(slope_y, hn::LoadU(kF, depth.row_slope_y.values.data() + there)));
+      const VF cosine = hn::Mul(hn::Mul(normal_z, hn::LoadU(kF, depth.row_normal_z.values.data() + there)),
+                                hn::Add(level, hn::Set(kF, 1.0F)));
+      const auto is_near = hn::Le(hn::Mul(hn::Abs(above), normal_z), tolerance);  // never of NaN
+      const auto counts = hn::And(is_near, hn::Ge(cosine, least_cosine));
       count = hn::Add(count, hn::IfThenElseZero(counts, hn::Set(kF, 1.0F)));
       for (std::size_t c = 0; c < means.size(); ++c) {
         const VF result = hn::LoadU(kF, pass.results[c].values.data() + there);

@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include "heightlight/screenspace.h"
+#include "screenspace/relaxed_points.h"
 
 // The table of methods. To add one: write its file, declare its function in heightlight/screenspace.h, and
 // add a line below (or a loop of lines).
@@ -114,7 +115,7 @@ GtaoOptions without_noise(int slices, int steps) {
 void add_gtao_sweeps(std::vector<ScreenSpaceMethod>& methods) {
   for (const int slices : {2, 4, 8, 16, 32}) methods.push_back(gtao_line(without_noise(slices, 128)));
   for (const int steps : {8, 16, 32, 64}) methods.push_back(gtao_line(without_noise(32, steps)));
-  GtaoOptions converged = without_noise(64, 256);
+  GtaoOptions converged = without_noise(64, 1024);
   converged.bent_normal = true;
   methods.push_back(gtao_line(converged, true));
   GtaoOptions thick = without_noise(32, 64);
@@ -162,6 +163,7 @@ void add_hbao(std::vector<ScreenSpaceMethod>& methods) {
 
 void add_ambient_transfer(std::vector<ScreenSpaceMethod>& methods) {
   const auto add = [&](const AmbientTransferOptions& options, bool shown) {
+    relaxed_points(options.samples);  // which a renderer has in its code
     std::string words = format("%g samples", options.samples) + format("; m = %g", options.tests) +
                         (options.square_root ? "; root" : "; step") + format("; reach %g", options.reach);
     if (options.noise == DirectionNoise::spatial) words += "; 16 turns";
@@ -179,11 +181,12 @@ void add_ambient_transfer(std::vector<ScreenSpaceMethod>& methods) {
   }
   add({16, 1, false, DirectionNoise::none, 1}, false);
   add({64, 2, false, DirectionNoise::spatial, 1}, false);
-  add({256, 64, false, DirectionNoise::spatial, 4}, false);
+  add({256, 32, false, DirectionNoise::none, 4}, false);
 }
 
 void add_ssdo(std::vector<ScreenSpaceMethod>& methods) {
   const auto add = [&](const SsdoOptions& options, bool shown) {
+    relaxed_points(options.samples);
     std::string words = format("%g samples", options.samples) + format("; reach %g", options.reach);
     if (options.noise == DirectionNoise::spatial) words += "; 16 turns";
     methods.push_back({"ssdo", words, shown, [options](const DepthBuffer& depth, const Albedos& albedos) {

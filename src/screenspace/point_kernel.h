@@ -15,6 +15,9 @@
 
 namespace heightlight {
 
+/// Albedos that vary: a red, a green and a blue one at most.
+constexpr std::size_t kMostAlbedos = 3;
+
 /// A point to test, in the tangent frame, world units, and what it counts if it is open.
 struct TangentPoint {
   float x = 0, y = 0, z = 0;
@@ -34,8 +37,8 @@ struct PointPass {
   float bias = 0;                                ///< world units
   std::array<float, kNoiseRanks> turn_cosine{};  ///< of the frame, by noise rank
   std::array<float, kNoiseRanks> turn_sine{};
-  /// Of the surface, one per albedo that varies, all of the map's size: read at the first place that lies
-  /// below it.
+  /// Of the surface, one per albedo that varies (kMostAlbedos of them), all of the map's size: read at the
+  /// first place that lies below it.
   std::vector<const Map*> albedos{};
 };
 

@@ -142,7 +142,6 @@ void bounce_points_scalar(const BouncePass& pass, int row, std::vector<float>& r
       const Place place = place_of(depth, at, offset);
       const auto [i, k] = texel_at(depth, place);
       const float radiance = pass.sender(i, k);
-      if (std::isnan(radiance)) continue;  // a hole beside the facet that hides
       const Vec way(offset.x(), offset.y(), height_at(depth, place) - at.height);
       const float squared = way.squaredNorm();
       const float n_z = depth.row_normal_z(i, k);
@@ -152,7 +151,9 @@ void bounce_points_scalar(const BouncePass& pass, int row, std::vector<float>& r
       const float clamped = std::max(squared, pass.least_distance * pass.least_distance);
       const float cosines =
           std::max(towards, 0.0F) * std::max(received_cosine, 0.0F) / std::max(squared, 1e-30F);
-      received[static_cast<std::size_t>(column)] += radiance * pass.area * cosines / clamped;
+      const float all = radiance * pass.area * cosines / clamped;
+      // Not beside a hole, whose texel has no radiance.
+      if (!std::isnan(all)) received[static_cast<std::size_t>(column)] += all;
     }
   }
 }

@@ -163,7 +163,7 @@ void test_points_lanes(const PointPass& pass, int row, PointSums& sums) {
   for_receivers(pass.depth, row, [&](const Receivers& at) {
     Lanes open = no_lanes();
     Lanes half = no_lanes();
-    std::vector<Lanes> albedo(pass.albedos.size(), no_lanes());
+    std::array<Lanes, kMostAlbedos> albedo{no_lanes(), no_lanes(), no_lanes()};
     for (std::size_t v = 0; v < kBunch; ++v) {
       const Framed framed = lanes.frame(at, v);
       for (const TangentPoint& point : pass.points) {
@@ -187,7 +187,7 @@ void test_points_lanes(const PointPass& pass, int row, PointSums& sums) {
     }
     add_to_row(open, at.column, sums.open);
     if (with_half) add_to_row(half, at.column, sums.half);
-    for (std::size_t a = 0; a < albedo.size(); ++a) add_to_row(albedo[a], at.column, sums.albedo[a]);
+    for (std::size_t a = 0; a < pass.albedos.size(); ++a) add_to_row(albedo[a], at.column, sums.albedo[a]);
   });
 }
 

@@ -25,7 +25,7 @@ std::vector<std::vector<std::string>> read_table(const std::filesystem::path& pa
 }
 
 TEST_CASE("compare writes its table, report, plots and pictures, and errors that do not depend on threads",
-          "[cli][compare]") {
+          "[cli][compare][slow]") {
   const ScratchFolder folder;
   REQUIRE(run_command("synth cobbles -o map.png --size 32", folder).exit_code == 0);
   const CommandResult one = run_command("compare map.png -o one --albedo 0.3,0.8,0.8 --threads 1", folder);

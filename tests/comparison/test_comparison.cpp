@@ -124,7 +124,7 @@ TEST_CASE("the reference knows its own error, and half the sky sends half of the
   CHECK(half / whole == Approx(0.5).margin(0.02));  // slopes towards either side are as frequent on a tile
 }
 
-TEST_CASE("every method is compared, and the exact ones come out exact", "[comparison]") {
+TEST_CASE("every method is compared, and the exact ones come out exact", "[comparison][slow]") {
   const SmallScene scene("brick");
   const DepthBuffer depth = make_depth_buffer(scene.surface);
   const ComparedScene compared{scene.surface, depth, scene.albedos};

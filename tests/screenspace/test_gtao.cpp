@@ -173,7 +173,7 @@ TEST_CASE("a tilted plane is open: 1 once the slices' own sum is divided by", "[
   GtaoOptions options{3, 8};
   options.noise = DirectionNoise::none;
   options.divide_by_open = true;
-  options.sampling = GENERATE(DepthSampling::nearest, DepthSampling::mesh);
+  options.sampling = DepthSampling::mesh;
   const ScreenSpaceView view = gtao(make_depth_buffer(surface), options);
   for (const float sky : view.sky_view_factor.values) REQUIRE(sky == Approx(1).margin(3e-6));  // rounding
 }
@@ -216,7 +216,7 @@ TEST_CASE("with slices and steps GTAO converges to the exact walk", "[screenspac
   });
   double before = 1;
   for (const int slices : {4, 16, 64}) {
-    GtaoOptions options{slices, 8 * slices};
+    GtaoOptions options{slices, 16 * slices};
     options.sampling = DepthSampling::mesh;
     options.noise = DirectionNoise::none;
     options.bent_normal = true;
