@@ -12,6 +12,7 @@
 #include "command.h"
 #include "core/hash.h"
 #include "folder_contents.h"
+#include "heightlight/error.h"
 #include "io/folder_lock.h"
 #include "running_command.h"
 
