@@ -234,9 +234,10 @@ TotalBounds<Real> bound_total(SkyViewFactor<Real> sky, Real total, Real total_al
 
 /// Guesses of n, as plots/make-models fits them to all its maps. Each keeps n in [0, 1].
 struct SeenConstants {
-  double offset = 0.07, slope = 0.82;                                 ///< from A alone
+  double offset = 0.07, slope = 0.82;                                  ///< from A alone
   double map_offset = 0.012, map_slope = 0.62, map_curvature = -0.17;  ///< from A and the map's s
-  double blur_offset = 0.013, blur_slope = 0.32;                          ///< from A and its blur
+  double deep_slope = 0.69, deep_bend = -0.65;                         ///< from A and the map's t
+  double blur_offset = 0.013, blur_slope = 0.32;                       ///< from A and its blur
 };
 
 /// n from A alone: offset + slope A.
@@ -257,6 +258,32 @@ constexpr SeenSkyViewFactor<Real> guess_seen_on_map(SkyViewFactor<Real> sky, See
       d * (static_cast<Real>(constants.map_slope) + d * static_cast<Real>(constants.map_curvature))));
 }
 
+/// What a map's n and A say about t, the n of its deepest places: sums over its texels weighted by w =
+/// (∂G/∂n)² at kSeenAlbedo, so that errors of n count as what they do to the total.
+struct SeenMoments {
+  double weight = 0;    ///< Σ w
+  double sky = 0;       ///< Σ w A
+  double sky_sky = 0;   ///< Σ w A²
+  double seen = 0;      ///< Σ w n
+  double seen_sky = 0;  ///< Σ w n A
+
+  void add(SkyViewFactor<double> sky_view_factor, SeenSkyViewFactor<double> n);
+};
+
+/// t, one number per map, from its simulation: the one with which guess_seen_in_deep comes nearest to the
+/// map's own n, in least squares. 1 where nothing is occluded.
+SeenSkyViewFactor<double> tune_deep_seen(const SeenMoments& moments, const SeenConstants& constants = {});
+
+/// n from A and t = tune_deep_seen(…): t + (slope + bend t) A.
+template <class Real>
+constexpr SeenSkyViewFactor<Real> guess_seen_in_deep(SkyViewFactor<Real> sky, SeenSkyViewFactor<Real> deep,
+                                                     const SeenConstants& constants = {}) {
+  const Real t = deep.value;
+  return SeenSkyViewFactor<Real>(
+      clamp_share(t + (static_cast<Real>(constants.deep_slope) + static_cast<Real>(constants.deep_bend) * t) *
+                          clamp_share(sky.value)));
+}
+
 /// n from A and its blurred neighbourhood W = blur_seen(…): offset + W + slope (A − W).
 template <class Real>
 constexpr SeenSkyViewFactor<Real> guess_seen_by_blur(SkyViewFactor<Real> sky, SeenSkyViewFactor<Real> blurred,
@@ -272,12 +299,13 @@ struct ModelInputs {
   AmbientOcclusion<double> ambient_occlusion{0};
   SkyViewFactor<double> sky_view_factor{0};
   SeenSkyViewFactor<double> expected_seen{0};  ///< s, one number per map
+  SeenSkyViewFactor<double> deep_seen{0};      ///< t, one number per map
   SeenSkyViewFactor<double> blurred{0};        ///< W, the blurred sky view factor
   SeenSkyViewFactor<double> seen{0};           ///< n, stored as a second channel
 };
 
 /// What a closed form needs beside its AO.
-enum class ExtraInput { none, expected_seen, blurred, seen };
+enum class ExtraInput { none, expected_seen, deep_seen, blurred, seen };
 
 /// One closed form of the list.
 struct ClosedForm {

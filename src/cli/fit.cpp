@@ -39,8 +39,9 @@ double rms_as_published(const FormFamily& family, const std::vector<FitPoint>& p
   const std::vector<double>& albedos = target_albedos(family.target);
   ErrorTally tally;
   for (const FitPoint& point : points) {
+    const ModelInputs inputs = tune_inputs(family, published, point.moments, point.inputs);
     for (std::size_t k = 0; k < albedos.size(); ++k) {
-      tally.add(family.evaluate(published, point.inputs, albedos[k]) - point.measured[k], point.weight);
+      tally.add(family.evaluate(published, inputs, albedos[k]) - point.measured[k], point.weight);
     }
   }
   return tally.rms();

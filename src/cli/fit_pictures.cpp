@@ -117,6 +117,10 @@ ShaderConstants shader_constants(const FitReport& report) {
     constants.seen.map_slope = map->fit.parameters[1];
     constants.seen.map_curvature = map->fit.parameters[2];
   }
+  if (const FittedFamily* deep = find_family(report, "seen_from_deep")) {
+    constants.seen.deep_slope = deep->fit.parameters[0];
+    constants.seen.deep_bend = deep->fit.parameters[1];
+  }
   if (const FittedFamily* blur = find_family(report, "seen_from_blur")) {
     constants.seen.blur_offset = blur->fit.parameters[0];
     constants.seen.blur_slope = blur->fit.parameters[1];

@@ -142,6 +142,19 @@ Equilibrium find_tail(const Transport& transport, const BounceSeries& series, do
   return {conserve_tail(transport, series.sum, series.last, series.bounces, albedo), 0, 0};
 }
 
+/// t, from what is seen at kSeenAlbedo, the last of the series' albedos.
+double find_deep_seen(const Transport& transport, const BounceSeries& series) {
+  SeenMoments moments;
+  for (Eigen::Index i = 0; i < series.sum.size(); ++i) {
+    const SkyViewFactor<double> sky(double{transport.sky_view_factor.values[static_cast<std::size_t>(i)]});
+    if (std::isnan(sky.value)) continue;
+    const double total =
+        series.weighted.back()[i] + conserve_tail(series.sum[i], series.last[i], series.bounces, kSeenAlbedo);
+    moments.add(sky, seen_from_total(sky, total, kSeenAlbedo));
+  }
+  return tune_deep_seen(moments).value;
+}
+
 /// Total irradiance of all bounces, one vector per channel of the albedo.
 std::vector<TexelVector> find_totals(const Transport& transport, const BounceSeries& series,
                                      const Albedo& albedo, bool by_conservation, EnergyCheck& energy,
@@ -274,8 +287,9 @@ void simulate(SimulateOptions& options) {
 
   BounceSink sink(transport, surface, options, folder);
   const auto visit = [&sink](int b, const TexelVector& irradiance) { sink.take(b, irradiance); };
-  const BounceSeries series =
-      bounce(transport, surface, options.bounces, albedo.constant, visit, options.run.quiet);
+  std::vector<double> albedos = albedo.constant;
+  albedos.push_back(kSeenAlbedo);
+  const BounceSeries series = bounce(transport, surface, options.bounces, albedos, visit, options.run.quiet);
   const bool by_conservation = found.plan.has_value();
   const Equilibrium tail = find_tail(transport, series, 1, by_conservation, options.run.quiet);
   check_energy(transport, series, tail, simulation.energy);
@@ -288,6 +302,7 @@ void simulate(SimulateOptions& options) {
   seconds.check = watch.lap();
 
   simulation.seen = sink.seen();
+  simulation.seen.deep = find_deep_seen(transport, series);
   sink.take_tail(tail.irradiance);
   const std::vector<BounceCurves> curves = sink.curves();
   write_curves_csv(folder.file("curves.csv"), curves);

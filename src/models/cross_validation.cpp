@@ -13,8 +13,11 @@ namespace {
 
 using Evaluate = std::function<std::optional<double>(const ModelInputs&, double albedo)>;
 
+/// A form once it knows the map.
+using EvaluateOn = std::function<Evaluate(const JudgedMap&)>;
+
 /// The forms as fitted without one material; the same order for every material.
-using Forms = std::vector<Evaluate>;
+using Forms = std::vector<EvaluateOn>;
 
 /// The project's own guesses of n are fitted anew, and not judged on what they were fitted to.
 bool is_fixed(const ClosedForm& form) { return form.source != "here" || form.extra == ExtraInput::seen; }
@@ -73,10 +76,20 @@ std::vector<Eigen::VectorXd> fit_without(const std::string& material, const std:
   return fits;
 }
 
+EvaluateOn same_on_all_maps(const Evaluate& evaluate) {
+  return [evaluate](const JudgedMap&) { return evaluate; };
+}
+
+std::vector<Evaluate> know_map(const Forms& forms, const JudgedMap& map) {
+  std::vector<Evaluate> known;
+  for (const EvaluateOn& form : forms) known.push_back(form(map));
+  return known;
+}
+
 Forms make_forms(const std::vector<FamilyPoints>& all, const std::vector<Eigen::VectorXd>& fits) {
   Forms forms;
   for (const ClosedForm& form : closed_forms()) {
-    if (is_fixed(form)) forms.push_back(form.evaluate);
+    if (is_fixed(form)) forms.push_back(same_on_all_maps(form.evaluate));
   }
   NotesConstants notes;
   notes.direct_power = 1;
@@ -86,15 +99,19 @@ Forms make_forms(const std::vector<FamilyPoints>& all, const std::vector<Eigen::
     notes.first_gain = fits[f][0];
     notes.first_decay = fits[f][1];
   }
-  forms.push_back([notes](const ModelInputs& in, double albedo) {
+  forms.push_back(same_on_all_maps([notes](const ModelInputs& in, double albedo) {
     return std::optional(notes_total_guarded(in.ambient_occlusion, albedo, notes));
-  });
+  }));
   for (std::size_t f = 0; f < all.size(); ++f) {
     const FormFamily& family = *all[f].family;
     if (family.target != FitTarget::total) continue;
-    forms.push_back([&family, fit = fits[f]](const ModelInputs& in, double albedo) -> std::optional<double> {
-      if (fit.size() == 0) return std::nullopt;
-      return family.evaluate(fit, in, albedo);
+    forms.push_back([&family, fit = fits[f]](const JudgedMap& map) -> Evaluate {
+      if (fit.size() == 0) return [](const ModelInputs&, double) { return std::optional<double>(); };
+      const SeenSkyViewFactor<double> deep = tune_inputs(family, fit, map.moments, {}).deep_seen;
+      return [&family, fit, deep](ModelInputs in, double albedo) {
+        in.deep_seen = deep;
+        return std::optional(clamp_share(family.evaluate(fit, in, albedo)));
+      };
     });
   }
   return forms;
@@ -115,7 +132,8 @@ void tally(JudgedForm& form, const Evaluate& evaluate, const ModelInputs& inputs
   form.errors_by_ao[albedo][bin].add(*total - measured, weight);
 }
 
-std::vector<JudgedForm> judge_texels(const JudgedMap& map, const Forms& forms) {
+std::vector<JudgedForm> judge_texels(const JudgedMap& map, const Forms& all_forms) {
+  const std::vector<Evaluate> forms = know_map(all_forms, map);
   std::vector<JudgedForm> judged = list_forms();
   const TexelSample& texels = *map.texels;
   const double weight = 1 / static_cast<double>(texels.size());
@@ -131,10 +149,12 @@ std::vector<JudgedForm> judge_texels(const JudgedMap& map, const Forms& forms) {
 }
 
 bool takes_bins(const JudgedForm& form, const JudgedMap& map) {
-  return form.extra == ExtraInput::none || (form.extra == ExtraInput::expected_seen && map.expected_seen);
+  return form.extra == ExtraInput::none || (form.extra == ExtraInput::expected_seen && map.expected_seen) ||
+         (form.extra == ExtraInput::deep_seen && map.texels);
 }
 
-std::vector<JudgedForm> judge_bins(const JudgedMap& map, const Forms& forms) {
+std::vector<JudgedForm> judge_bins(const JudgedMap& map, const Forms& all_forms) {
+  const std::vector<Evaluate> forms = know_map(all_forms, map);
   std::vector<JudgedForm> judged = list_forms();
   for (std::size_t f = 0; f < forms.size(); ++f) {
     if (!takes_bins(judged[f], map)) continue;

@@ -63,18 +63,20 @@ FormFamily notes_first_bounce_family() {
 }
 
 FormFamily cubic_family(const std::string& name, FitTarget target) {
-  return {
-      name,
-      "a A^3 - b A^2 + c A; a, b, c linear in albedo",
-      "file 000 eq. 33",
-      AoKind::sky_view_factor,
-      ExtraInput::none,
-      target,
-      {"a_slope", "a_offset", "b_slope", "b_offset", "c_slope", "c_offset"},
-      {kCubic.a_slope, kCubic.a_offset, kCubic.b_slope, kCubic.b_offset, kCubic.c_slope, kCubic.c_offset},
-      [](Parameters p, Inputs in, double albedo) {
-        return cubic_total(in.sky_view_factor, albedo, CubicConstants{p[0], p[1], p[2], p[3], p[4], p[5]});
-      }};
+  return {name,
+          "a A^3 - b A^2 + c A; a, b, c linear in albedo",
+          "file 000 eq. 33",
+          AoKind::sky_view_factor,
+          ExtraInput::none,
+          target,
+          {"a_slope", "a_offset", "b_slope", "b_offset", "c_slope", "c_offset"},
+          {kCubic.a_slope, kCubic.a_offset, kCubic.b_slope, kCubic.b_offset, kCubic.c_slope, kCubic.c_offset},
+          [](Parameters p, Inputs in, double albedo) {
+            // as a polynomial, not held in [0, 1]
+            const double sky = in.sky_view_factor.value;
+            return (((p[0] * albedo + p[1]) * sky - (p[2] * albedo + p[3])) * sky + p[4] * albedo + p[5]) *
+                   sky;
+          }};
 }
 
 FormFamily seen_from_sky_family() {
@@ -110,6 +112,29 @@ FormFamily seen_from_map_family() {
             constants.map_curvature = p[2];
             return bounced_total(in.sky_view_factor,
                                  guess_seen_on_map(in.sky_view_factor, in.expected_seen, constants), albedo);
+          }};
+}
+
+SeenConstants deep_constants(Parameters p) {
+  SeenConstants constants;
+  constants.deep_slope = p[0];
+  constants.deep_bend = p[1];
+  return constants;
+}
+
+FormFamily seen_from_deep_family() {
+  return {"seen_from_deep",
+          "G(A, n, rho), n = t + (slope + bend t) A",
+          "here",
+          AoKind::sky_view_factor,
+          ExtraInput::deep_seen,
+          FitTarget::total,
+          {"slope", "bend"},
+          {kSeen.deep_slope, kSeen.deep_bend},
+          [](Parameters p, Inputs in, double albedo) {
+            return bounced_total(in.sky_view_factor,
+                                 guess_seen_in_deep(in.sky_view_factor, in.deep_seen, deep_constants(p)),
+                                 albedo);
           }};
 }
 
@@ -164,6 +189,7 @@ void add_bins(const FormFamily& family, const JudgedMap& map, std::size_t index,
     point.map = index;
     point.weight = static_cast<double>(bin.count) / texels;
     point.inputs = bin_inputs(map, bin, family.kind);
+    point.moments = map.moments;
     for (const double albedo : target_albedos(family.target)) {
       point.measured.push_back(measured_in_bin(bin, family.target, albedo));
     }
@@ -240,6 +266,7 @@ const std::vector<FormFamily>& form_families() {
       cubic_family("cubic", FitTarget::total),
       seen_from_sky_family(),
       seen_from_map_family(),
+      seen_from_deep_family(),
       seen_from_blur_family(),
   };
   return families;
@@ -259,12 +286,22 @@ const std::vector<double>& target_albedos(FitTarget target) {
   }
 }
 
+ModelInputs tune_inputs(const FormFamily& family, const VectorXd& parameters, const SeenMoments& moments,
+                        ModelInputs inputs) {
+  if (family.extra == ExtraInput::deep_seen) {
+    inputs.deep_seen = tune_deep_seen(moments, deep_constants(parameters));
+  }
+  return inputs;
+}
+
 std::vector<FitPoint> collect_points(const FormFamily& family, const std::vector<JudgedMap>& maps) {
   std::vector<FitPoint> points;
   for (std::size_t i = 0; i < maps.size(); ++i) {
     if (family.extra == ExtraInput::blurred) {
       if (maps[i].texels) add_cells(family, maps[i], i, points);
-    } else if (family.extra == ExtraInput::none || maps[i].expected_seen) {
+    } else if (family.extra == ExtraInput::none ||
+               (family.extra == ExtraInput::expected_seen && maps[i].expected_seen) ||
+               (family.extra == ExtraInput::deep_seen && maps[i].texels)) {
       add_bins(family, maps[i], i, points);
     }
   }
@@ -285,8 +322,9 @@ LeastSquaresFit fit_family(const FormFamily& family, const std::vector<FitPoint>
     Eigen::Index i = 0;
     for (const FitPoint* point : used) {
       const double root = std::sqrt(point->weight * map_weights[point->map]);
+      const ModelInputs inputs = tune_inputs(family, parameters, point->moments, point->inputs);
       for (std::size_t k = 0; k < albedos.size(); ++k) {
-        left[i++] = root * (family.evaluate(parameters, point->inputs, albedos[k]) - point->measured[k]);
+        left[i++] = root * (family.evaluate(parameters, inputs, albedos[k]) - point->measured[k]);
       }
     }
   };

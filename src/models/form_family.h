@@ -34,6 +34,11 @@ struct FormFamily {
   std::function<double(const Eigen::VectorXd& parameters, const ModelInputs&, double albedo)> evaluate;
 };
 
+/// The inputs with what the family itself finds out about the map, given its parameters: t, for
+/// ExtraInput::deep_seen.
+ModelInputs tune_inputs(const FormFamily& family, const Eigen::VectorXd& parameters,
+                        const SeenMoments& moments, ModelInputs inputs);
+
 /// All families: the notes' F₀ and F₁, Jimenez' cubic of three and of all bounces, and those of G(A, n, ρ).
 const std::vector<FormFamily>& form_families();
 
@@ -42,6 +47,7 @@ struct FitPoint {
   ModelInputs inputs;
   double weight = 0;  ///< its share of the map's texels, so that maps count alike
   std::size_t map = 0;
+  SeenMoments moments;           ///< of its map
   std::vector<double> measured;  ///< one per albedo of the target
 };
 

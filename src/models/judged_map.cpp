@@ -86,6 +86,10 @@ JudgedMap read_judged_map(const std::filesystem::path& curves_csv, std::uint64_t
   map.measured_seen = run->measured_seen;
   if (has_saved_texels(folder)) {
     map.texels = sample(read_saved_texels(folder, judged_albedos(), memory_limit), run->tiles);
+    for (std::size_t i = 0; i < map.texels->size(); ++i) {
+      map.moments.add(SkyViewFactor(double{map.texels->sky_view_factor[i]}),
+                      SeenSkyViewFactor(double{map.texels->seen[i]}));
+    }
   }
   return map;
 }

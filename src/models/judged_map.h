@@ -35,6 +35,7 @@ struct JudgedMap {
   std::optional<double> expected_seen;  ///< s; from the summary beside the curves
   std::optional<double> measured_seen;
   std::optional<TexelSample> texels;  ///< where bounces were saved
+  SeenMoments moments;                ///< of those texels
 };
 
 /// Reads CURVES.csv, and what else `simulate` left in its folder. The material is the name of the heightmap

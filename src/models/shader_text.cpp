@@ -85,6 +85,11 @@ float heightlight_seen_from_map(float sky, float expected) {
   return heightlight_share($map_offset + expected + d * ($map_slope + d * ($map_curvature)));
 }
 
+// n from A and one number for the whole map that its simulation found: seen.deep_sky_view_factor of simulate.
+float heightlight_seen_from_deep(float sky, float deep) {
+  return heightlight_share(deep + ($deep_slope + ($deep_bend) * deep) * heightlight_share(sky));
+}
+
 // n from A and its blur, weighted by 1 - A, a Gaussian of $blur_sigma texels.
 float heightlight_seen_from_blur(float sky, float blurred) {
   return heightlight_share($blur_offset + blurred + $blur_slope * (heightlight_share(sky) - blurred));
@@ -142,6 +147,8 @@ Constants list_constants(const ShaderConstants& constants) {
                 {"map_offset", seen.map_offset},
                 {"map_slope", seen.map_slope},
                 {"map_curvature", seen.map_curvature},
+                {"deep_slope", seen.deep_slope},
+                {"deep_bend", seen.deep_bend},
                 {"blur_offset", seen.blur_offset},
                 {"blur_slope", seen.blur_slope}};
   append_cubic("", {}, all);

@@ -52,23 +52,25 @@ std::string picture_size(std::size_t panels, bool is_svg) {
 
 /// AO, then the RMS error per judged albedo; NaN in bins without texels.
 PlotTable error_table(const JudgedForm& form) {
-  PlotTable table;
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  const std::size_t columns = form.errors_by_ao.size() + 1;
+  // gnuplot complains of tables without a valid point: the first is outside the axes, tied to no other
+  PlotTable table{std::vector<double>(columns, -1), std::vector<double>(columns, kNan)};
   for (std::size_t bin = 0; bin < kErrorBins; ++bin) {
     std::vector<double> row{(static_cast<double>(bin) + 0.5) / kErrorBins};
-    for (const auto& by_ao : form.errors_by_ao) {
-      row.push_back(by_ao[bin].weight > 0 ? by_ao[bin].rms() : std::numeric_limits<double>::quiet_NaN());
-    }
+    for (const auto& by_ao : form.errors_by_ao)
+      row.push_back(by_ao[bin].weight > 0 ? by_ao[bin].rms() : kNan);
     table.push_back(row);
   }
-  // gnuplot complains of tables without a valid point; this one is outside the axes
-  table.push_back(std::vector<double>(form.errors_by_ao.size() + 1, -1));
   return table;
 }
 
+/// A gnuplot string of two lines; names of forms need no escapes.
 std::string error_title(const JudgedForm& form) {
   std::ostringstream title;
-  title << form.name << "\nRMS" << std::fixed << std::setprecision(3);
+  title << '"' << form.name << "\\nRMS" << std::fixed << std::setprecision(3);
   for (const std::size_t albedo : {0, 2, 4, 6, 8}) title << ' ' << form.errors[albedo].rms();
+  title << '"';
   return title.str();
 }
 
@@ -126,7 +128,7 @@ GnuplotResult draw_errors(const std::string& terminal, const std::vector<JudgedF
     }
     script << "set multiplot layout " << layout(forms.size()) << '\n';
     for (std::size_t i = 0; i < forms.size(); ++i) {
-      script << "set title " << gnuplot_quoted(error_title(forms[i])) << " noenhanced\nset xlabel '"
+      script << "set title " << error_title(forms[i]) << " noenhanced\nset xlabel '"
              << axis_name(forms[i].kind)
              << "'\nset ylabel 'RMS error of E / π'\nset key top right\nplot for [k=0:8:2] $errors" << i
              << " using 1:(column(k+2)) with lines lw 2.2 lc palette cb k title sprintf('ρ = 0.%d', k+1)\n";

@@ -34,7 +34,7 @@ const std::vector<double> kEdges = {0,      1e-7,  0.1,   0.25, 0.5,      0.764,
 const std::vector<double> kAlbedos = {0, 1e-7, 0.1, 0.2, 0.3, 0.5, 0.7, 0.8, 0.9, 0.99, 1 - 1e-7, 1};
 
 ModelInputs inputs(double ao, double other) {
-  return {Alpha(ao), Sky(ao), Seen(other), Seen(other), Seen(other)};
+  return {Alpha(ao), Sky(ao), Seen(other), Seen(other), Seen(other), Seen(other)};
 }
 
 }  // namespace
@@ -254,6 +254,21 @@ TEST_CASE("reciprocity: s and the measured n agree where samples resolve the sur
   CHECK(s > 0.1);
   CHECK(s < 0.9);
   CHECK(measured == Approx(s).margin(0.01));  // discretisation: texels of 1/96
+}
+
+TEST_CASE("the one number of a map comes back out of its texels", "[models]") {
+  for (const double t : {0.05, 0.3, 0.7}) {
+    SeenMoments moments;
+    for (int i = 0; i <= 50; ++i) {
+      const Sky sky(i / 50.0);
+      moments.add(sky, guess_seen_in_deep(sky, Seen(t)));
+    }
+    CHECK(tune_deep_seen(moments).value == Approx(t).epsilon(1e-12));  // identity
+  }
+  SeenMoments open;
+  open.add(Sky(1.0), Seen(1.0));
+  CHECK(tune_deep_seen(open).value == 1);
+  CHECK(tune_deep_seen(SeenMoments{}).value == 1);
 }
 
 TEST_CASE("the blur is a mean: constants stay, it commutes with shifts, holes are left out", "[models]") {

@@ -30,12 +30,12 @@ int main() {
     for (int j = 0; j <= 10; ++j) {
       float ao = i / 40.0f, other = (7 * i % 41) / 40.0f, albedo = j / 10.0f;
       vec3 albedos(albedo, 1 - albedo, 0.3f);
-      std::printf("%.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g",
+      std::printf("%.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g",
                   heightlight_uniform_neighbourhood(ao, albedo), heightlight_cubic(ao, albedo),
                   heightlight_cubic_fitted(ao, albedo), heightlight_notes(ao, albedo),
                   heightlight_notes_fitted(ao, albedo), heightlight_bounced(ao, other, albedo),
                   heightlight_seen_from_sky(ao), heightlight_seen_from_map(ao, other),
-                  heightlight_seen_from_blur(ao, other));
+                  heightlight_seen_from_deep(ao, other), heightlight_seen_from_blur(ao, other));
       vec3 three = heightlight_bounced(ao, other, albedos);
       std::printf(" %.9g %.9g %.9g", three.x, three.y, three.z);
       three = heightlight_notes(ao, albedos);
@@ -92,19 +92,20 @@ TEST_CASE("shaders compute what the library does", "[models]") {
             cubic_total(sky, albedo, constants.cubic), notes_total_guarded(alpha, albedo),
             notes_total_guarded(alpha, albedo, constants.notes), bounced_total(sky, seen, albedo),
             guess_seen(sky, constants.seen).value, guess_seen_on_map(sky, seen, constants.seen).value,
+            guess_seen_in_deep(sky, seen, constants.seen).value,
             guess_seen_by_blur(sky, seen, constants.seen).value, bounced_total(sky, seen, albedo),
             bounced_total(sky, seen, second), bounced_total(sky, seen, third),
             notes_total_guarded(alpha, albedo), notes_total_guarded(alpha, second),
             notes_total_guarded(alpha, third)}) {
         double value = -1;
         REQUIRE(lines >> value);
-        INFO("AO " << ao << " other " << other << " albedo " << albedo << " column " << compared % 15);
+        INFO("AO " << ao << " other " << other << " albedo " << albedo << " column " << compared % 16);
         CHECK(value == Approx(expected).margin(4e-6));  // discretisation of floats, as of models.h
         ++compared;
       }
     }
   }
-  CHECK(compared == 41 * 11 * 15);
+  CHECK(compared == 41 * 11 * 16);
 }
 
 }  // namespace heightlight
