@@ -33,9 +33,8 @@ constexpr float kSteep = 2.0F;
 /// Walks one azimuth from every receiver of the tile. The readable one.
 void walk_sky_scalar(const WalkTile& tile, const AzimuthTable& azimuth, const FarView& far, SkySums& sums);
 
-/// The fast one: receivers side by side, rings left out where a bound shows that they raise no horizon. The
-/// same sums, but for the rounding of fused products where the machine has them, and of the arc tangent
-/// (2e-8).
+/// The fast one: receivers side by side. The same sums, but for the rounding of fused products where the
+/// machine has them, and of the arc tangent (2e-8).
 void walk_sky(const WalkTile& tile, const AzimuthTable& azimuth, const FarView& far, SkySums& sums);
 
 }  // namespace heightlight

@@ -22,12 +22,6 @@ float horizon_slope(const WalkTile& tile, const AzimuthTable& azimuth, const Far
                            sample.weight[1] * window.at(row + sample.row[1], column + sample.column[1]);
     slope = std::max(slope, weighted - sample.per_distance * z);
   }
-  if (!azimuth.rings.empty()) {
-    for (const RingSample& sample : azimuth.rings[0]) {
-      const float height = tile.windows[1].at((row + sample.row) >> 1, (column + sample.column) >> 1);
-      slope = std::max(slope, (height - z) * sample.per_distance);
-    }
-  }
   constexpr int kSide = WalkTile::kGroup;
   const auto group = static_cast<std::size_t>(i / kSide * (WalkTile::kSide / kSide) + j / kSide);
   const float nearer = static_cast<float>(i % kSide - kSide / 2) * azimuth.along_row +

@@ -28,7 +28,6 @@ void walk_sky_lanes(const WalkTile& tile, const AzimuthTable& azimuth, const Far
       Bunch bunch = walk.begin(row, column);
       walk.look_near(bunch);
       walk.look_far(bunch);
-      walk.look_at_ring(bunch);
       for (std::size_t v = 0; v < kBunch; ++v) {
         const std::size_t at = bunch.first + v * hn::Lanes(kF);
         const VF n_z = hn::Load(kF, tile.normal_z.data() + at);

@@ -74,9 +74,7 @@ HWY_INLINE Slice integrate_slice(VF c, VF n_z, VF m) {
 class LaneWalk {
  public:
   LaneWalk(const WalkTile& tile, const AzimuthTable& azimuth, const FarView& far)
-      : tile_(tile), azimuth_(azimuth), far_(far) {
-    if (!azimuth.rings.empty()) ring_highest_ = ring_highest(tile, azimuth.rings[0], 1);
-  }
+      : tile_(tile), azimuth_(azimuth), far_(far) {}
 
   Bunch begin(int row, int column) const {
     Bunch bunch;
@@ -114,13 +112,6 @@ class LaneWalk {
     }
   }
 
-  /// Ring 1, unless it is too low to be seen.
-  void look_at_ring(Bunch& bunch) const {
-    if (azimuth_.rings.empty()) return;
-    const std::vector<RingSample>& samples = azimuth_.rings[0];
-    if (may_rise(bunch, ring_highest_, samples.front().per_distance)) look_at_blocks(bunch, samples);
-  }
-
   /// The lines that the groups of the bunch keep.
   void look_far(Bunch& bunch) const {
     constexpr int kSide = WalkTile::kGroup;
@@ -147,49 +138,13 @@ class LaneWalk {
   }
 
  private:
-  /// Could a height of at most `highest`, no nearer than 1 / `per_distance`, raise any of the horizons? What
-  /// is below a receiver is seen least steeply from afar, under a slope of less than 0.
-  bool may_rise(const Bunch& bunch, float highest, float per_distance) const {
-    const VF top = hn::Set(kF, highest);
-    const VF nearest = hn::Set(kF, per_distance);
-    for (std::size_t v = 0; v < kBunch; ++v) {
-      const VF steepest = hn::Mul(hn::Max(hn::Sub(top, bunch.height[v]), hn::Zero(kF)), nearest);
-      if (!hn::AllFalse(kF, hn::Gt(steepest, bunch.slope[v]))) return true;
-    }
-    return false;
-  }
-
   static void raise(Bunch& bunch, std::size_t v, VF height, VF per_distance) {
     bunch.slope[v] = hn::Max(bunch.slope[v], hn::Mul(hn::Sub(height, bunch.height[v]), per_distance));
-  }
-
-  /// Each receiver looks at its own block: neighbours in a vector share some, which is a permutation of a
-  /// load.
-  void look_at_blocks(Bunch& bunch, const std::vector<RingSample>& samples) const {
-    const HeightWindow& window = tile_.windows[1];
-    const int row = tile_.first_row + bunch.row;
-    const int column = tile_.first_column + bunch.column;
-    const VI even = hn::ShiftRight<1>(hn::Iota(kI, 0));
-    const VI odd = hn::ShiftRight<1>(hn::Iota(kI, 1));
-    for (const RingSample& sample : samples) {
-      const float* line = window.values.data() +
-                          std::ptrdiff_t{((row + sample.row) >> 1) - window.first_row} * window.width -
-                          window.first_column;
-      const int start = column + sample.column;
-      const VI pairs = (start & 1) != 0 ? odd : even;
-      const auto order = hn::IndicesFromVec(kF, pairs);
-      const VF per_distance = hn::Set(kF, sample.per_distance);
-      for (std::size_t v = 0; v < kBunch; ++v) {
-        const int first = (start + static_cast<int>(v * hn::Lanes(kF))) >> 1;
-        raise(bunch, v, hn::TableLookupLanes(hn::LoadU(kF, line + first), order), per_distance);
-      }
-    }
   }
 
   const WalkTile& tile_;
   const AzimuthTable& azimuth_;
   const FarView& far_;
-  float ring_highest_ = kNoHeight;
 };
 
 }  // namespace heightlight::HWY_NAMESPACE
