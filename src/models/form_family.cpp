@@ -330,8 +330,9 @@ LeastSquaresFit fit_family(const FormFamily& family, const std::vector<FitPoint>
   };
   const VectorXd start =
       Eigen::Map<const VectorXd>(family.published.data(), static_cast<Eigen::Index>(family.published.size()));
-  return fit_least_squares(family.name, start, static_cast<Eigen::Index>(used.size() * albedos.size()),
-                           weight_sum, residuals);
+  const ResidualShape shape{static_cast<Eigen::Index>(used.size()), static_cast<Eigen::Index>(albedos.size()),
+                            weight_sum};
+  return fit_least_squares(family.name, start, shape, residuals);
 }
 
 ParameterIntervals bootstrap_family(const FormFamily& family, const std::vector<FitPoint>& points,

@@ -14,6 +14,8 @@ using Catch::Matchers::Contains;
 
 const char* kHeader = "ao_kind,bin,ao_lo,ao_hi,ao_mean,count,bounce,mean,stddev,p05,p50,p95\n";
 
+const NotesConstants kBounded{0.4, 1, 20, 3};  ///< F₀ stays below 1
+
 /// A number about as often above as below 0, of standard deviation 1: the sum of twelve uniform ones less 6.
 double noise(std::uint64_t seed) {
   double sum = -6;
@@ -97,7 +99,9 @@ TEST_CASE("known parameters are recovered within their stated intervals", "[mode
 }
 
 TEST_CASE("without noise parameters come back exactly", "[models]") {
-  const std::vector<JudgedMap> maps{synthetic_map("made", synthetic_curves({}, 0.06, 0.8, 0, 1))};
+  const SeenConstants seen;
+  const std::vector<JudgedMap> maps{
+      synthetic_map("made", synthetic_curves({}, seen.offset, seen.slope, 0, 1))};
   for (const char* name : {"notes_direct", "notes_first_bounce", "seen_from_sky"}) {
     FormFamily family = family_named(name);
     const std::vector<double> truth = family.published;
@@ -115,21 +119,21 @@ TEST_CASE("fits that can't be are errors that name them", "[models]") {
     for (Eigen::Index i = 0; i < left.size(); ++i) left[i] = p[0] + p[1] * static_cast<double>(i) - 3;
   };
   const Eigen::VectorXd start = Eigen::VectorXd::Zero(2);
-  CHECK(fit_least_squares("a line", start, 10, 10, line).parameters[0] == Approx(3));
-  CHECK_THROWS_WITH(fit_least_squares("a line", start, 2, 2, line),
+  CHECK(fit_least_squares("a line", start, {10, 1, 10}, line).parameters[0] == Approx(3));
+  CHECK_THROWS_WITH(fit_least_squares("a line", start, {2, 1, 2}, line),
                     Contains("a line") && Contains("2 measurements"));
   const auto flat = [](const Eigen::VectorXd& p, Eigen::VectorXd& left) {
     left.setConstant(p[0] + p[1] - 1);
   };
-  CHECK_THROWS_WITH(fit_least_squares("twins", start, 10, 10, flat),
+  CHECK_THROWS_WITH(fit_least_squares("twins", start, {10, 1, 10}, flat),
                     Contains("twins") && Contains("determine"));
   const auto nowhere = [](const Eigen::VectorXd&, Eigen::VectorXd& left) { left.setConstant(std::nan("")); };
-  CHECK_THROWS_WITH(fit_least_squares("nothing", start, 10, 10, nowhere), Contains("does not converge"));
+  CHECK_THROWS_WITH(fit_least_squares("nothing", start, {10, 1, 10}, nowhere), Contains("does not converge"));
   const auto escaping = [](const Eigen::VectorXd& p, Eigen::VectorXd& left) {
     for (Eigen::Index i = 0; i < left.size(); ++i)
       left[i] = std::exp(-p[0]) + std::exp(-p[1] * static_cast<double>(i + 1));
   };
-  CHECK_THROWS_AS(fit_least_squares("runaway", start, 10, 10, escaping), Error);
+  CHECK_THROWS_AS(fit_least_squares("runaway", start, {10, 1, 10}, escaping), Error);
 }
 
 TEST_CASE("damaged curve files are refused by line", "[models][curves]") {
@@ -164,7 +168,7 @@ TEST_CASE("damaged curve files are refused by line", "[models][curves]") {
 
 TEST_CASE("curves read back as they were written, columns in any order", "[models][curves]") {
   const ScratchFolder scratch;
-  const std::vector<BounceCurves> curves = synthetic_curves({}, 0.1, 0.7, 0, 3);
+  const std::vector<BounceCurves> curves = synthetic_curves(kBounded, 0.1, 0.7, 0, 3);
   write_curves_csv(scratch / "curves.csv", curves);
   const std::vector<BounceCurves> read = read_curves_csv(scratch / "curves.csv");
   REQUIRE(read.size() == 2);
@@ -195,7 +199,7 @@ TEST_CASE("maps with too few filled bins, or one kind of AO, are refused", "[mod
     write_curves_csv(scratch / "c.csv", curves);
     return scratch / "c.csv";
   };
-  std::vector<BounceCurves> curves = synthetic_curves({}, 0.1, 0.7, 0, 1);
+  std::vector<BounceCurves> curves = synthetic_curves(kBounded, 0.1, 0.7, 0, 1);
   CHECK(read_judged_map(write(curves), ~0ULL).material == "c");
   CHECK_THROWS_WITH(read_judged_map(write({curves[0]}), ~0ULL),
                     Contains("c.csv") && Contains("no curves over sky"));
