@@ -2,7 +2,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 
 #include "cli/fit_report.h"
 #include "heightlight/error.h"
@@ -47,30 +46,30 @@ std::string explain_conventions(const FormFamily& family, const std::vector<Judg
          describe_parameters(family, fit.parameters);
 }
 
-/// How far apart single maps are, each fitted alone; maps whose bins don't determine the fit are left out.
+/// How far apart single maps are, each fitted alone: where the middle half of them lies.
 std::string explain_maps(const FittedFamily& fitted, const std::vector<JudgedMap>& maps) {
   const FormFamily& family = *fitted.family;
   const std::vector<FitPoint> points = collect_points(family, maps);
-  const auto count = static_cast<Eigen::Index>(family.parameters.size());
-  Eigen::VectorXd low = Eigen::VectorXd::Constant(count, std::numeric_limits<double>::infinity());
-  Eigen::VectorXd high = -low;
-  int maps_fitted = 0;
+  std::vector<std::vector<double>> alone(family.parameters.size());
   for (std::size_t map = 0; map < maps.size(); ++map) {
     std::vector<double> weights(maps.size(), 0);
     weights[map] = 1;
     try {
       const LeastSquaresFit fit = fit_family(family, points, weights);
-      low = low.cwiseMin(fit.parameters);
-      high = high.cwiseMax(fit.parameters);
-      ++maps_fitted;
+      for (std::size_t p = 0; p < alone.size(); ++p) {
+        alone[p].push_back(fit.parameters[static_cast<Eigen::Index>(p)]);
+      }
     } catch (const Error&) {
-      // a map of few bins, close together
+      // a map of few bins, close together, that don't determine the fit
     }
   }
-  std::string text = "why: " + family.name + format(" to each of %d maps alone: ", maps_fitted);
-  for (Eigen::Index p = 0; p < count && maps_fitted > 0; ++p) {
-    text += (p > 0 ? ", " : "") +
-            format("%s %.4g … %.4g", family.parameters[static_cast<std::size_t>(p)].c_str(), low[p], high[p]);
+  const std::size_t count = alone.front().size();
+  std::string text =
+      "why: " + family.name + format(" to each of %d maps alone, the middle half: ", static_cast<int>(count));
+  for (std::size_t p = 0; p < alone.size() && count > 0; ++p) {
+    std::sort(alone[p].begin(), alone[p].end());
+    text += (p > 0 ? ", " : "") + format("%s %.4g … %.4g", family.parameters[p].c_str(), alone[p][count / 4],
+                                         alone[p][count - 1 - count / 4]);
   }
   return text;
 }

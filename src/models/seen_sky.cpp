@@ -88,8 +88,9 @@ SeenSkyViewFactor<double> measured_seen(const Map& sky_view_factor, const TexelV
 
 void SeenMoments::add(SkyViewFactor<double> sky_view_factor, SeenSkyViewFactor<double> n) {
   const double a = clamp_share(sky_view_factor.value);
-  const double rest = 1 - kSeenAlbedo * (1 - n.value);
-  const double slope = (1 - a) * kSeenAlbedo * (1 - kSeenAlbedo) / (rest * rest);  // ∂G/∂n
+  constexpr double kAlbedo = 0.5;
+  const double rest = 1 - kAlbedo * (1 - n.value);
+  const double slope = (1 - a) * kAlbedo * (1 - kAlbedo) / (rest * rest);  // ∂G/∂n
   const double w = slope * slope;
   weight += w;
   sky += w * a;
