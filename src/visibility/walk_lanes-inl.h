@@ -12,6 +12,7 @@
 #include <array>
 #include <numbers>
 
+#include "core/arc_tangent-inl.h"
 #include "visibility/far_view.h"
 #include "visibility/sky_walk.h"
 
@@ -43,31 +44,11 @@ struct Slice {
   VF sky, solid;
 };
 
-/// atan x for |x| ≤ 1, to 2e-8 (Abramowitz and Stegun 4.4.49).
-HWY_INLINE VF atan_unit(VF x) {
-  constexpr std::array<float, 9> kTerms{1.0F,           -0.3333314528F, 0.1999355085F,
-                                        -0.1420889944F, 0.1065626393F,  -0.0752896400F,
-                                        0.0429096138F,  -0.0161657367F, 0.0028662257F};
-  const VF square = hn::Mul(x, x);
-  VF sum = hn::Set(kF, kTerms[8]);
-  for (std::size_t i = 8; i-- > 0;) sum = hn::MulAdd(sum, square, hn::Set(kF, kTerms[i]));
-  return hn::Mul(sum, x);
-}
-
-/// atan x for any x.
-HWY_INLINE VF arc_tangent(VF x) {
-  const VF one = hn::Set(kF, 1.0F);
-  const VF half_pi = hn::Set(kF, std::numbers::pi_v<float> / 2);
-  const VF size = hn::Abs(x);
-  const VF angle = atan_unit(hn::Div(hn::Min(size, one), hn::Max(size, one)));
-  return hn::CopySign(hn::IfThenElse(hn::Gt(size, one), hn::Sub(half_pi, angle), angle), x);
-}
-
 HWY_INLINE Slice integrate_slice(VF c, VF n_z, VF m) {
   const VF one = hn::Set(kF, 1.0F);
   const VF half_pi = hn::Set(kF, std::numbers::pi_v<float> / 2);
   const VF q = hn::Div(one, hn::MulAdd(m, m, one));
-  const VF zenith = hn::NegMulAdd(m, q, hn::Sub(half_pi, arc_tangent(m)));
+  const VF zenith = hn::NegMulAdd(m, q, hn::Sub(half_pi, arc_tangent(kF, m)));
   return {hn::MulAdd(c, zenith, hn::Mul(n_z, q)), hn::NegMulAdd(m, hn::Sqrt(q), one)};
 }
 
