@@ -232,7 +232,7 @@ TotalBounds<Real> bound_total(SkyViewFactor<Real> sky, Real total, Real total_al
   return {a + (1 - a) * std::min(by_jensen, by_chord), a + (1 - a) * std::max(by_jensen, by_chord)};
 }
 
-/// Guesses of n, as plots/make-models fits them to all its maps. Each keeps n in [0, 1].
+/// Guesses of n, as fitted to the maps of plots/make-models. Each keeps n in [0, 1].
 struct SeenConstants {
   double offset = 0.07, slope = 0.82;                                  ///< from A alone
   double map_offset = 0.012, map_slope = 0.62, map_curvature = -0.17;  ///< from A and the map's s
@@ -259,7 +259,7 @@ constexpr SeenSkyViewFactor<Real> guess_seen_on_map(SkyViewFactor<Real> sky, See
 }
 
 /// What a map's n and A say about t, the n of its deepest places: sums over its texels weighted by w =
-/// (∂G/∂n)² at kSeenAlbedo, so that errors of n count as what they do to the total.
+/// (∂G/∂n)² at albedo ½, so that errors of n count as what they do to the total.
 struct SeenMoments {
   double weight = 0;    ///< Σ w
   double sky = 0;       ///< Σ w A
