@@ -138,6 +138,7 @@ Simulation simulate_map(const SimulateOptions& options) {
   const SolvedBounces solved = solve_bounces(*transport, surface, albedo, options,
                                              simulation.plan.has_value(), sink, simulation.energy);
   simulation.seen = sink.seen();
+  simulation.seen.deep = solved.deep_seen;
   seconds.curves = sink.seconds();
   seconds.bounces = watch.lap() - seconds.curves;
   estimate_errors(options, surface, *transport, solved.totals[0], albedo, simulation);
