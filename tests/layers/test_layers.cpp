@@ -36,7 +36,7 @@ const std::map<std::string, Names> kMayInclude = {
 const std::map<std::string, std::string> kLayerOfPublicHeader = {
     {"error.h", "core"},          {"image.h", "core"},      {"heightmap.h", "heightmap"},
     {"synth.h", "heightmap"},     {"surface.h", "surface"}, {"visibility.h", "visibility"},
-    {"transport.h", "transport"}, {"curves.h", "curves"},
+    {"transport.h", "transport"}, {"curves.h", "curves"},   {"bake.h", "bake"},
 };
 
 /// Libraries, by how their headers' names begin, and the one layer that includes them.
