@@ -137,6 +137,7 @@ struct HorizonGoal {
   bool total_only = false;  ///< A may err by more, as long as the total does not
   int azimuths = 0;         ///< > 0: those of the sky, fixed
   std::uint64_t seed = 1;   ///< of the sample of receivers
+  double sky_share = 1;     ///< of the error, that A may have: less where finer things hang on its walk
 };
 
 /// Chooses a plan by trying ways of walking on a sample of receivers against exact walks; then builds.
