@@ -80,6 +80,12 @@ class CurveBuilder {
 /// both kinds below each other, numbers with as many digits as a double needs. Throws Error naming the file.
 void write_curves_csv(const std::filesystem::path& path, const std::vector<BounceCurves>& curves);
 
+/// Reads such a file back: the columns by their names, in any order. The tail, which it does not hold, is
+/// what the means leave of 1. Throws Error naming the file, and the line, for a column that is missing, a
+/// number that is none or not finite, a kind of AO that is unknown or comes again after the other, bins out
+/// of order or without texels, bounces that don't follow on each other or of which bins have unlike numbers.
+std::vector<BounceCurves> read_curves_csv(const std::filesystem::path& path);
+
 /// One relief of a study of the height amplitude.
 struct ReliefCurves {
   double relief_share = 0;  ///< peak-to-valley height over the map's width

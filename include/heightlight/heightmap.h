@@ -49,8 +49,14 @@ struct LoadOptions {
   std::optional<double> no_data;     ///< the value, as stored in the file, that means "missing"
   std::optional<std::string> channel;  ///< name (any case) or 0-based index; default: the only one, or grey
                                        ///< where all agree at every texel (alpha left out)
-  bool invert = false;                 ///< the file holds depths: the highest value is the lowest place
+  int shrink = 1;       ///< means of shrink × shrink samples take their place; must divide both sides
+  bool invert = false;  ///< the file holds depths: the highest value is the lowest place
 };
+
+/// The map with the mean of factor × factor samples (those present) in place of each such square, and the
+/// spacing that goes with it: a coarser look at the same surface. Missing where all of a square is. Throws
+/// UsageError for a factor that does not divide both sides.
+Heightmap shrink(const Heightmap& map, int factor);
 
 /// Levels are counted up to here: as many as 16 bits can tell apart.
 constexpr std::size_t kMostLevels = 65536;
@@ -81,6 +87,7 @@ struct LoadedHeightmap {
 /// samples are stretched so that the lowest present is 0 and the highest `relief`; float samples are heights,
 /// stretched likewise only where `relief` is given. What is stretched has base 0; a level map stays level.
 /// Samples equal to `no_data` or to the value that the file itself declares, NaN and ±infinity go missing.
+/// `shrink` comes last, on heights as stretched, so that the relief of what is left may be less.
 /// `width` sets the spacing along the rows, and that of an Esri grid along the columns in proportion.
 /// `memory_limit` (bytes) is checked against the header's size before samples are read.
 /// Throws Error naming `path` and what is wrong: missing, a directory, empty, truncated or damaged, no known

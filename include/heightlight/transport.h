@@ -197,6 +197,9 @@ Equilibrium solve_tail(const Transport& transport, const BounceSeries& series, d
 TexelVector conserve_tail(const Transport& transport, const TexelVector& sum, const TexelVector& last,
                           int bounces, double albedo);
 
+/// The same of one receiver, from its own E₀ + … + E_K and E_K.
+double conserve_tail(double sum, double last, int bounces, double albedo);
+
 /// Total irradiance of all bounces at constant albedos, without keeping the bounces apart.
 struct TotalIrradiance {
   std::vector<TexelVector> totals;  ///< E/π, per albedo

@@ -15,8 +15,8 @@ namespace {
 /// Of the error wanted, what ending the bounces may take.
 constexpr double kBounceShare = 0.2;
 
-/// Of the error wanted, that A may have where moments are wanted too: at an RMSE of 0.002 bent normals err by 0.1
-/// to 0.4 degrees, and at most by 0.3 at this share of it (brick walls; other maps by half of that).
+/// Of the error wanted, that A may have where moments are wanted too: at an RMSE of 0.002 bent normals err by
+/// 0.1 to 0.4 degrees, and at most by 0.3 at this share of it (brick walls; other maps by half of that).
 constexpr double kMomentShare = 0.7;
 
 /// Calls work() and returns the seconds that it took.
@@ -142,8 +142,8 @@ void find_light(const Needs& needs, const BakeOptions& options, std::uint64_t li
   PlannedTransport planned;
   material.seconds.visibility += seconds_of([&] {
     const bool total_only = !keeps_sky && !needs.model;
-    planned = plan_horizon_transport(surface, goal_of(options, total_only, keeps_sky && needs.moments.first), {link_memory, options.quiet},
-                                     keeps_sky ? needs.moments : SkyWanted{});
+    planned = plan_horizon_transport(surface, goal_of(options, total_only, keeps_sky && needs.moments.first),
+                                     {link_memory, options.quiet}, keeps_sky ? needs.moments : SkyWanted{});
   });
   Transport& transport = *planned.transport;
   material.plan = planned.plan;

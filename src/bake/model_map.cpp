@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/parallel.h"
+#include "heightlight/models.h"
 
 namespace heightlight {
 namespace {
@@ -18,18 +19,6 @@ const std::vector<double>& judged_albedos() {
   return kAlbedos;
 }
 
-double fit_model_n(double sky_view_factor, double total, double albedo) {
-  if (!(sky_view_factor < 1)) return 1;
-  const double q = (total - sky_view_factor) / (1 - sky_view_factor);
-  if (q >= 1) return 1;
-  return std::clamp(q * (1 - albedo) / (albedo * (1 - q)), 0.0, 1.0);
-}
-
-double evaluate_model(double sky_view_factor, double n, double albedo) {
-  const double loss = 1 - albedo * (1 - n);
-  return loss > 0 ? sky_view_factor + albedo * (1 - sky_view_factor) * n / loss : 1;
-}
-
 Map fit_model_map(const Map& sky_view_factor, const TexelVector& total) {
   Map n(sky_view_factor.width, sky_view_factor.height);
   parallel_for(n.height, [&](std::int64_t row) {
@@ -39,7 +28,9 @@ Map fit_model_map(const Map& sky_view_factor, const TexelVector& total) {
       n.values[i] =
           std::isnan(sky)
               ? std::numeric_limits<float>::quiet_NaN()
-              : static_cast<float>(fit_model_n(sky, total[static_cast<Eigen::Index>(i)], kFittedAlbedo));
+              : static_cast<float>(
+                    seen_from_total(SkyViewFactor(sky), total[static_cast<Eigen::Index>(i)], kFittedAlbedo)
+                        .value);
     }
   });
   return n;
@@ -56,7 +47,7 @@ ModelError judge_model_map(const Map& sky_view_factor, const Map& n, const Texel
     const auto own = static_cast<double>(n.values[i]);
     const double truth = total[static_cast<Eigen::Index>(i)];
     const auto squared = [&](double a, double b) {
-      return std::pow(evaluate_model(a, b, albedo) - truth, 2);
+      return std::pow(bounced_total(SkyViewFactor(a), SeenSkyViewFactor(b), albedo) - truth, 2);
     };
     error.rmse += squared(sky, own);
     error.rmse_16_bits += squared(rounded(sky, 65535), rounded(own, 65535));

@@ -57,6 +57,9 @@ void add_load_options(CLI::App& command, LoadOptions& load) {
       ->check(CLI::IsMember({"tile", "open"}));
   command.add_option("--no-data", load.no_data, "the stored value that means a missing sample");
   command.add_option("--channel", load.channel, "channel to read, by name or number, where they differ");
+  command
+      .add_option("--shrink", load.shrink, "take the mean of N × N samples for one, for a quicker look (1)")
+      ->type_name("N");
   command.add_flag("--invert", load.invert, "the file holds depths: its highest value is the lowest place");
 }
 

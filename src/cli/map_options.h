@@ -15,7 +15,7 @@ struct MapOptions {
   LoadOptions load;
 };
 
-/// Adds `--relief --width --texel --boundary --no-data --channel --invert`.
+/// Adds `--relief --width --texel --boundary --no-data --channel --shrink --invert`.
 void add_load_options(CLI::App& command, LoadOptions& load);
 
 /// Adds MAP and what add_load_options adds.

@@ -9,6 +9,7 @@
 #include "cli/simulation.h"
 #include "core/byte_size.h"
 #include "heightlight/error.h"
+#include "heightlight/models.h"
 #include "io/image_file.h"
 #include "plot/curve_plots.h"
 #include "plot/previews.h"
@@ -92,14 +93,18 @@ class BounceSink {
       : surface_(surface),
         options_(options),
         folder_(folder),
+        sky_view_factor_(transport.sky_view_factor),
         alpha_(transport.ambient_occlusion, AoKind::ambient_occlusion, options.bins),
-        sky_(transport.sky_view_factor, AoKind::sky_view_factor, options.bins) {}
+        sky_(transport.sky_view_factor, AoKind::sky_view_factor, options.bins) {
+    seen_.expected = expected_seen(transport.sky_view_factor, surface).value;
+  }
 
   void take(int b, const TexelVector& irradiance) {
     StopWatch watch;
     alpha_.add(irradiance);
     sky_.add(irradiance);
     seconds_ += watch.lap();
+    if (b == 1) seen_.mean = measured_seen(sky_view_factor_, irradiance, surface_).value;
     if (b < kPreviewedBounces) first_.push_back(to_map(irradiance, surface_));
     if (!options_.save_bounces) return;
     char name[32];
@@ -113,6 +118,7 @@ class BounceSink {
   }
 
   const std::vector<Map>& first() const { return first_; }
+  const SeenSky& seen() const { return seen_; }
   std::vector<BounceCurves> curves() const { return {alpha_.curves(), sky_.curves()}; }
   double seconds() const { return seconds_; }  ///< spent on the curves
 
@@ -120,6 +126,8 @@ class BounceSink {
   const Surface& surface_;
   const SimulateOptions& options_;
   StagedFolder& folder_;
+  const Map& sky_view_factor_;
+  SeenSky seen_;
   CurveBuilder alpha_;
   CurveBuilder sky_;
   std::vector<Map> first_;
@@ -279,6 +287,7 @@ void simulate(SimulateOptions& options) {
   estimate_errors(options, surface, transport, irradiance[0], albedo, simulation);
   seconds.check = watch.lap();
 
+  simulation.seen = sink.seen();
   sink.take_tail(tail.irradiance);
   const std::vector<BounceCurves> curves = sink.curves();
   write_curves_csv(folder.file("curves.csv"), curves);

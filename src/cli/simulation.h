@@ -50,6 +50,12 @@ struct EnergyCheck {
   int solver_iterations = 0;   ///< largest number of iterations among them
 };
 
+/// The mean sky view factor of what texels see, weighted by how much of it they see.
+struct SeenSky {
+  double expected = 1;  ///< by reciprocity, from the sky view factor and the normals alone
+  double mean = 1;  ///< as the first bounce brings it; the two part where samples don't resolve the surface
+};
+
 /// Everything that the summary reports.
 struct Simulation {
   SourceFacts facts;
@@ -58,6 +64,7 @@ struct Simulation {
   std::optional<HorizonCheck> check;    ///< of horizon walks
   std::uint64_t links = 0;
   std::uint64_t link_bytes = 0;
+  SeenSky seen;
   EnergyCheck energy;
   StepTimes seconds;
 };

@@ -151,6 +151,7 @@ LoadedHeightmap load_heightmap(const std::filesystem::path& path, const LoadOpti
   if (!relief && stored.facts.is_integer) relief = map.spacing.x * stored.values.width / 10;
   map.height = to_heights(path, stored, relief, options.invert);
   if (!relief) map.base = options.invert ? -stored.facts.highest : stored.facts.lowest;
+  if (options.shrink != 1) map = shrink(map, options.shrink);
 
   loaded.facts = std::move(stored.facts);
   loaded.facts.format = to_string(format);

@@ -62,6 +62,10 @@ double total_change(const std::vector<Eigen::Index>& judges, const TexelVector& 
 
 }  // namespace
 
+double conserve_tail(double sum, double last, int bounces, double albedo) {
+  return conserved(sum, last, albedo, std::pow(albedo, bounces + 1));
+}
+
 TexelVector conserve_tail(const Transport& transport, const TexelVector& sum, const TexelVector& last,
                           int bounces, double albedo) {
   const double power = std::pow(albedo, bounces + 1);

@@ -24,7 +24,7 @@ const std::map<std::string, Names> kMayInclude = {
     {"visibility", {"core", "heightmap", "surface"}},
     {"transport", {"core", "heightmap", "surface", "visibility"}},
     {"curves", {"core", "io", "heightmap", "surface", "visibility", "transport"}},
-    {"models", {"core", "curves"}},
+    {"models", {"core", "heightmap", "surface", "transport", "curves"}},
     {"screenspace", {"core", "heightmap", "surface"}},
     {"bake", {"core", "io", "heightmap", "surface", "visibility", "transport", "models"}},
     {"plot", {"core", "io", "heightmap", "surface", "visibility", "transport", "curves", "models"}},
@@ -36,7 +36,8 @@ const std::map<std::string, Names> kMayInclude = {
 const std::map<std::string, std::string> kLayerOfPublicHeader = {
     {"error.h", "core"},          {"image.h", "core"},      {"heightmap.h", "heightmap"},
     {"synth.h", "heightmap"},     {"surface.h", "surface"}, {"visibility.h", "visibility"},
-    {"transport.h", "transport"}, {"curves.h", "curves"},   {"bake.h", "bake"},
+    {"transport.h", "transport"}, {"curves.h", "curves"},   {"models.h", "models"},
+    {"bake.h", "bake"},
 };
 
 /// Libraries, by how their headers' names begin, and the one layer that includes them.
