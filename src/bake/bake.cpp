@@ -153,7 +153,7 @@ void check_bake_options(const BakeOptions& options) {
   if (options.dither && options.depth != TextureDepth::uint8) {
     throw UsageError("--dither: only 8 bits need it; add --depth 8");
   }
-  if (options.reach) reach_nodes(*options.reach);
+  if (options.reach) check_reach(*options.reach);
   if (!(options.error > 0) || options.error > 1) {
     throw UsageError("--error " + std::to_string(options.error) + ": must be above 0, and 1 at most");
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace heightlight {
 namespace {
@@ -19,6 +20,7 @@ double cone_of_openness(double sky_view_factor) {
 double cone_of_spread(double sky_view_factor, const Eigen::Vector3f& first) {
   if (!(sky_view_factor > 0)) return 0;
   const double p = std::clamp(1.5 * first.cast<double>().norm() / sky_view_factor - 1, 0.0, 0.5);
+  if (p < 1e-6) return std::numbers::pi / 2;  // what rounding leaves of 0 has a root of 10⁻³
   return safe_acos(0.5 * (p + std::sqrt(p * p + 4 * p)));
 }
 

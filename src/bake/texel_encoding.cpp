@@ -9,8 +9,8 @@ namespace heightlight {
 namespace {
 
 /// Directions that sum to 0 do so to a few roundings. That must not decide which way a half is rounded.
-constexpr double kRounding = 0x1p-10;  // levels
-constexpr double kZero = 1e-6;         // of values between −1 and 1
+constexpr double kRounding = 0x1p-8;  // levels
+constexpr double kZero = 1e-6;        // of values between −1 and 1
 
 /// Each channel reads the square of thresholds from another place, so that they are not correlated.
 float threshold(const Image<float>& noise, int row, int column, int channel) {

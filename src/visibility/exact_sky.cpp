@@ -25,28 +25,34 @@ void add_slice(const Eigen::Vector2d& azimuth, double mass, double angle, const 
   open.second[4] += second.y() * y;
 }
 
-/// A straight part of the profile, seen from slope to slope. Angles are integrated by Gauss's rule, and the
-/// line's distance under each follows from the two ends.
+/// A straight part of the profile, seen from slope to slope. Angles are integrated by Gauss's rule in pieces
+/// of a tenth, or, where the part crosses the sphere of the reach, of a thousandth; the line's distance under
+/// each angle follows from the two ends.
 void add_stretch(const SliceNormal& normal, const Eigen::Vector2d& azimuth, double from_slope,
                  const VisibleStretch& stretch, const Reach& reach, ExactSky& open) {
-  static const std::vector<QuadratureNode> kNodes = gauss_legendre(8);
+  static const std::vector<QuadratureNode> kNodes = gauss_legendre(4);
   const double from = std::atan(from_slope);
   const double to = std::atan(stretch.slope);
   const double rise = stretch.slope * stretch.end_way - from_slope * stretch.begin_way;
   const double run = stretch.end_way - stretch.begin_way;
-  for (const QuadratureNode& node : kNodes) {
-    const double elevation = from + node.at * (to - from);
-    const double slope = std::tan(elevation);
-    // (begin + t run) slope = begin from_slope + t rise
-    const double denominator = slope * run - rise;
-    const double t = denominator != 0 ? stretch.begin_way * (from_slope - slope) / denominator : 0.5;
-    const double way = stretch.begin_way + std::clamp(t, 0.0, 1.0) * run;
-    const double cosine = std::cos(elevation);
-    const double sine = std::sin(elevation);
-    const double share = open_share(reach, way / cosine) * node.weight * (to - from);
-    const double mass = share * (normal.along * cosine + normal.up * sine) * cosine;
-    add_slice(azimuth, mass, share * cosine, mass * Eigen::Vector2d(cosine, sine),
-              mass * Eigen::Vector2d(cosine * cosine, cosine * sine), open);
+  const bool is_nearer = stretch.begin_way / std::cos(from) < reach.distance;
+  const bool crosses = is_nearer != (stretch.end_way / std::cos(to) < reach.distance);
+  const int pieces = std::max(1, static_cast<int>(std::ceil((to - from) / (crosses ? 1e-3 : 0.1))));
+  for (int piece = 0; piece < pieces; ++piece) {
+    for (const QuadratureNode& node : kNodes) {
+      const double elevation = from + (piece + node.at) / pieces * (to - from);
+      const double slope = std::tan(elevation);
+      // (begin + t run) slope = begin from_slope + t rise
+      const double denominator = slope * run - rise;
+      const double t = denominator != 0 ? stretch.begin_way * (from_slope - slope) / denominator : 0.5;
+      const double way = stretch.begin_way + std::clamp(t, 0.0, 1.0) * run;
+      const double cosine = std::cos(elevation);
+      const double sine = std::sin(elevation);
+      const double share = open_share(reach, way / cosine) * node.weight * (to - from) / pieces;
+      const double mass = share * (normal.along * cosine + normal.up * sine) * cosine;
+      add_slice(azimuth, mass, share * cosine, mass * Eigen::Vector2d(cosine, sine),
+                mass * Eigen::Vector2d(cosine * cosine, cosine * sine), open);
+    }
   }
 }
 

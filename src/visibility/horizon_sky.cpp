@@ -20,39 +20,38 @@ struct Workspace {
   FarView far;
 };
 
-/// An azimuth, and its parts within each sharp reach, if any.
+/// An azimuth, and what of it lies within the reach.
 struct Azimuth {
   AzimuthTable table;
-  std::vector<ReachTable> reaches;
+  std::optional<ReachTable> reach;
 };
 
 /// Azimuths to walk along, with everything that all tiles share.
 struct Route {
   std::vector<Azimuth> azimuths;
-  std::vector<ReachNode> nodes;
   int rings = 0;
 };
 
 Route plan_route(const Surface& surface, const WalkOptions& options, const std::vector<double>& azimuths,
-                 const std::vector<ReachNode>& nodes) {
-  Route route{{}, nodes, ring_count(surface, options)};
-  if (!nodes.empty()) route.rings = rings_within(surface, options, nodes.back().distance, route.rings);
+                 const std::optional<Reach>& reach) {
+  Route route{{}, ring_count(surface, options)};
+  if (reach) {
+    check_reach(*reach);
+    route.rings = rings_within(surface, options, reach->distance, route.rings);
+  }
   for (const double azimuth : azimuths) {
     Azimuth& made = route.azimuths.emplace_back();
     made.table = make_azimuth_table(surface, options, azimuth);
-    for (const ReachNode& node : nodes) made.reaches.push_back(make_reach_table(made.table, node.distance));
+    made.table.rings.resize(static_cast<std::size_t>(route.rings));
+    if (reach) made.reach = make_reach_table(made.table, *reach);
   }
   return route;
 }
 
-void walk_azimuth(const Azimuth& azimuth, const std::vector<ReachNode>& nodes, Workspace& work) {
-  if (nodes.empty()) {
-    look_far(work.tile, azimuth.table, work.far);
-    walk_sky(work.tile, azimuth.table, work.far, work.sums);
-  }
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    walk_sky_within(work.tile, azimuth.table, azimuth.reaches[i], nodes[i].weight, work.sums);
-  }
+void walk_azimuth(const Azimuth& azimuth, Workspace& work) {
+  if (azimuth.reach) return walk_sky_within(work.tile, azimuth.table, *azimuth.reach, work.sums);
+  look_far(work.tile, azimuth.table, work.far);
+  walk_sky(work.tile, azimuth.table, work.far, work.sums);
 }
 
 /// Loads tile after tile and calls visit(workspace) for each, on all threads.
@@ -108,9 +107,7 @@ HorizonSky walk_horizon_sky(const Surface& surface, const HeightMips& mips, cons
                             bool quiet, const SkyTask& task) {
   std::vector<double> azimuths;
   for (int k = 0; k < options.azimuths; ++k) azimuths.push_back(azimuth_rad(options, k));
-  const std::vector<ReachNode> nodes =
-      task.reach ? reach_nodes(*task.reach, task.reach_nodes) : std::vector<ReachNode>{};
-  const Route route = plan_route(surface, options, azimuths, nodes);
+  const Route route = plan_route(surface, options, azimuths, task.reach);
   const int width = surface.width();
   const int height = surface.height();
   HorizonSky sky{Map(width, height), Map(width, height), {}};
@@ -119,7 +116,7 @@ HorizonSky walk_horizon_sky(const Surface& surface, const HeightMips& mips, cons
   for_tiles(surface, mips, options, route, "sky", quiet, [&](Workspace& work) {
     work.sums.wanted = task.wanted;
     work.sums.clear();
-    for (const Azimuth& azimuth : route.azimuths) walk_azimuth(azimuth, route.nodes, work);
+    for (const Azimuth& azimuth : route.azimuths) walk_azimuth(azimuth, work);
     write_tile(work, options.azimuths, sky);
   });
   return sky;
@@ -132,15 +129,15 @@ std::uint64_t horizon_sky_bytes(const SkyWanted& wanted) {
 std::vector<Map> walk_horizons(const Surface& surface, const HeightMips& mips, const WalkOptions& options,
                                const std::vector<double>& azimuths, const std::optional<Reach>& reach,
                                bool quiet) {
-  const std::vector<ReachNode> nodes =
-      reach ? reach_nodes({reach->distance, Falloff::none}) : std::vector<ReachNode>{};
-  const Route route = plan_route(surface, options, azimuths, nodes);
+  std::optional<Reach> sharp = reach;
+  if (sharp) sharp->falloff = Falloff::none;
+  const Route route = plan_route(surface, options, azimuths, sharp);
   std::vector<Map> horizons(azimuths.size(), Map(surface.width(), surface.height()));
   for_tiles(surface, mips, options, route, "horizons", quiet, [&](Workspace& work) {
     work.sums.keep_slope = true;
     work.sums.clear();
     for (std::size_t k = 0; k < route.azimuths.size(); ++k) {
-      walk_azimuth(route.azimuths[k], route.nodes, work);
+      walk_azimuth(route.azimuths[k], work);
       for_receivers(work.tile, horizons[k], [&](std::size_t texel, std::size_t at) {
         horizons[k].values[texel] = work.tile.present[at] ? std::atan(work.sums.slope[at]) : kMissing;
       });

@@ -21,7 +21,6 @@ struct HorizonSky {
 struct SkyTask {
   SkyWanted wanted;
   std::optional<Reach> reach;  ///< everywhere, where absent
-  int reach_nodes = 8;         ///< sharp reaches that stand for one with a falloff
 };
 
 HorizonSky walk_horizon_sky(const Surface& surface, const HeightMips& mips, const WalkOptions& options,

@@ -3,29 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/gauss_legendre.h"
 #include "heightlight/error.h"
 
 namespace heightlight {
 
-std::vector<ReachNode> reach_nodes(const Reach& reach, int nodes) {
+void check_reach(const Reach& reach) {
   if (!(reach.distance > 0) || !std::isfinite(reach.distance)) {
     throw UsageError("--max-distance must be a positive number");
   }
-  if (reach.falloff == Falloff::none) return {{reach.distance, 1}};
-  std::vector<ReachNode> result;
-  for (const QuadratureNode& node : gauss_legendre(nodes)) {
-    const double share = reach.falloff == Falloff::root ? node.at * node.at : node.at;
-    result.push_back({share * reach.distance, static_cast<float>(node.weight)});
-  }
-  return result;
 }
 
-ReachTable make_reach_table(const AzimuthTable& azimuth, double distance) {
-  ReachTable table;
+ReachTable make_reach_table(const AzimuthTable& azimuth, const Reach& sphere) {
+  const double distance = sphere.distance;
   const auto reach = static_cast<float>(distance);
-  table.squared = reach * reach;
-  table.deepest = -1e4F * reach;
+  ReachTable table{reach, reach * reach, -1e4F * reach, sphere.falloff, 0, {}};
   while (table.near < azimuth.near.size() && 1 / azimuth.near[table.near].per_distance < reach) ++table.near;
   table.near = std::min(table.near + 1, azimuth.near.size());
   for (const std::vector<RingSample>& ring : azimuth.rings) {

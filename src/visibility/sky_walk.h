@@ -52,16 +52,15 @@ constexpr float kSteep = 2.0F;
 /// Walks one azimuth from every receiver of the tile. The readable one.
 void walk_sky_scalar(const WalkTile& tile, const AzimuthTable& azimuth, const FarView& far, SkySums& sums);
 
-/// Likewise, with occluders only as far as a sharp reach. All that is added to the sums is multiplied by
-/// `weight`.
+/// Likewise, with occluders only as far as a reach; slopes are kept for a sharp one only.
 void walk_sky_within_scalar(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach,
-                            float weight, SkySums& sums);
+                            SkySums& sums);
 
 /// The fast one: receivers side by side, rings left out where a bound shows that they raise no horizon. The
 /// same sums, but for the rounding of fused products where the machine has them, and of the arc tangent
 /// (2e-8).
 void walk_sky(const WalkTile& tile, const AzimuthTable& azimuth, const FarView& far, SkySums& sums);
-void walk_sky_within(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach, float weight,
+void walk_sky_within(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach,
                      SkySums& sums);
 
 }  // namespace heightlight

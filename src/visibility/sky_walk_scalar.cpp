@@ -62,11 +62,11 @@ struct ProfilePoint {
 float exit_slope(const ProfilePoint& begin, const ProfilePoint& end, const ReachTable& reach) {
   const bool above = begin.rise > 0 && begin.squared() > reach.squared;
   if (begin.rise <= reach.deepest || above) return kNoHeight;
-  const float g = (end.rise - begin.rise) / (end.way - begin.way);
+  const float g = (end.rise - begin.rise) / run_between(begin.way, end.way);
   const float p = begin.rise - g * begin.way;
   const float u = 1 + g * g;
   const float root = reach.squared * u - p * p;
-  if (root < 0) return kNoHeight;
+  if (root < 0 || p >= 0) return kNoHeight;  // p ≥ 0: from the beginning on it only falls
   const float way = (std::sqrt(root) - p * g) / u;
   constexpr float kRounding = 1e-5F;
   if (way < begin.way * (1 - kRounding) || way > end.way * (1 + kRounding)) return kNoHeight;
@@ -96,56 +96,147 @@ float horizon_slope_within(const WalkTile& tile, const AzimuthTable& azimuth, co
   return slope;
 }
 
-/// Adds the slice above slope m to the sums of a receiver.
-void add_slice(const WalkTile& tile, const AzimuthTable& azimuth, std::size_t at, float tangent, float m,
-               float weight, SkySums& sums) {
-  const float n_z = tile.normal_z[at];
-  const float c = -n_z * tangent;
-  const auto slice = [c, n_z](float slope) {
-    const float q = 1 / (1 + slope * slope);
-    return c * (kHalfPi - std::atan(slope) - slope * q) + n_z * q;
-  };
-  const float sky = slice(m);
+/// What a slice sends from above slope m, in the plane of its azimuth; sky_walk.h derives it. Differences of
+/// two are what lies between their slopes.
+struct SliceSums {
+  float sky = 0, solid = 0;
+  float along = 0, up = 0;             ///< wanted.first
+  float along_squared = 0, mixed = 0;  ///< wanted.second
+};
+
+SliceSums integrate_slice(float c, float n_z, float m, const SkyWanted& wanted) {
   const float q = 1 / (1 + m * m);
+  const float zenith = kHalfPi - std::atan(m) - m * q;
   const float s = m * std::sqrt(q);
-  sums.sky[at] += weight * sky;
-  sums.full[at] += weight * (n_z * n_z * (1 + kSteep * kSteep) < 1 ? slice(tangent) : 1);
-  sums.solid[at] += weight * (1 - s);
-  if (sums.keep_slope) sums.slope[at] = m;
-  const float x = azimuth.world_x;
-  const float y = azimuth.world_y;
-  if (sums.wanted.first) {
+  SliceSums slice;
+  slice.sky = c * zenith + n_z * q;
+  slice.solid = 1 - s;
+  if (wanted.first) {
     const float e = 1 - s;
     const float mixed = q * std::sqrt(q);
-    const float along = 2 * weight / 3 * (c * (e * e * (2 + s)) + n_z * mixed);
-    sums.first[0][at] += along * x;
-    sums.first[1][at] += along * y;
-    sums.first[2][at] += 2 * weight / 3 * (c * mixed + n_z * (e * (1 + s + s * s)));
+    slice.along = 2.0F / 3 * (c * (e * e * (2 + s)) + n_z * mixed);
+    slice.up = 2.0F / 3 * (c * mixed + n_z * (e * (1 + s + s * s)));
+  }
+  if (wanted.second) {
+    const float fourth = q * q / 4;
+    slice.along_squared = 2 * (c * (0.375F * zenith - m * fourth) + n_z * fourth);
+    slice.mixed = 2 * (c * fourth + n_z * (zenith / 8 + m * fourth));
+  }
+  return slice;
+}
+
+SliceSums operator-(const SliceSums& a, const SliceSums& b) {
+  return {
+      a.sky - b.sky,    a.solid - b.solid, a.along - b.along, a.up - b.up, a.along_squared - b.along_squared,
+      a.mixed - b.mixed};
+}
+
+void add(float share, const SliceSums& slice, SliceSums& sum) {
+  sum.sky += share * slice.sky;
+  sum.solid += share * slice.solid;
+  sum.along += share * slice.along;
+  sum.up += share * slice.up;
+  sum.along_squared += share * slice.along_squared;
+  sum.mixed += share * slice.mixed;
+}
+
+/// μ at the place where a stretch from `begin` to `end`, seen from slope m to `seen`, stands for itself.
+float share_of_stretch(const ProfilePoint& begin, const ProfilePoint& end, float m, float seen,
+                       const ReachTable& reach) {
+  const float g = (end.rise - begin.rise) / run_between(begin.way, end.way);
+  const float p = begin.rise - g * begin.way;
+  const float passes = m < g ? -p / (g - m) : begin.way;  // the line p + g t is under slope m there
+  // The receiver's own facet stands for itself at its far end.
+  const float way = begin.way > 0 ? 0.5F * (std::clamp(passes, begin.way, end.way) + end.way) : end.way;
+  const float low = 1 / std::sqrt(1 + m * m);
+  const float high = 1 / std::sqrt(1 + seen * seen);
+  const float middle = (m * low + seen * high) / (low + high);
+  const float share = std::min(1.0F, way * std::sqrt(1 + middle * middle) / reach.distance);
+  return reach.falloff == Falloff::root ? std::sqrt(share) : share;
+}
+
+/// The slice of a receiver with a reach that falls off.
+SliceSums fading_slice(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach, int i,
+                       int j, float c, float n_z, float tangent, const SkyWanted& wanted) {
+  SliceSums open;
+  float m = tangent;
+  SliceSums above = integrate_slice(c, n_z, m, wanted);
+  ProfilePoint begin;
+  const auto see = [&](const ProfilePoint& from, const ProfilePoint& to, float seen) {
+    if (!(seen > m)) return;
+    const SliceSums next = integrate_slice(c, n_z, seen, wanted);
+    add(share_of_stretch(from, to, m, seen, reach), above - next, open);
+    above = next;
+    m = seen;
+  };
+  for (std::size_t k = 0; k < reach.near; ++k) {
+    const NearSample& sample = azimuth.near[k];
+    const float seen = near_slope(tile, sample, i, j);
+    const float way = 1 / sample.per_distance;
+    const ProfilePoint end{way, std::max(seen * way, reach.deepest)};
+    see(begin, end, seen);
+    begin = end;
+  }
+  for (std::size_t ring = 0; ring < reach.caps.size(); ++ring) {
+    for (std::size_t k = 0; k < reach.caps[ring].size(); ++k) {
+      const RingSample& sample = azimuth.rings[ring][k];
+      const float seen = ring_slope(tile, sample, static_cast<int>(ring) + 1, i, j);
+      const float way = 1 / sample.per_distance;
+      const ProfilePoint end{way, std::max(seen * way, reach.deepest)};
+      see(begin, end, seen);
+      begin = end;
+    }
+  }
+  add(1, above, open);
+  return open;
+}
+
+/// Adds a receiver's slice to its sums.
+void add_slice(const AzimuthTable& azimuth, std::size_t at, const SliceSums& slice, float full,
+               SkySums& sums) {
+  const float x = azimuth.world_x;
+  const float y = azimuth.world_y;
+  sums.sky[at] += slice.sky;
+  sums.full[at] += full;
+  sums.solid[at] += slice.solid;
+  if (sums.wanted.first) {
+    sums.first[0][at] += slice.along * x;
+    sums.first[1][at] += slice.along * y;
+    sums.first[2][at] += slice.up;
   }
   if (sums.wanted.second) {
-    const float zenith = kHalfPi - std::atan(m) - m * q;
-    const float fourth = q * q / 4;
-    const float along = 2 * (c * (0.375F * zenith - m * fourth) + n_z * fourth);
-    const float mixed = 2 * weight * (c * fourth + n_z * (zenith / 8 + m * fourth));
-    sums.second[0][at] += weight * along * (x * x - y * y);
-    sums.second[1][at] += weight * along * (x * y);
-    sums.second[2][at] += weight * (sky - along);
-    sums.second[3][at] += mixed * x;
-    sums.second[4][at] += mixed * y;
+    sums.second[0][at] += slice.along_squared * (x * x - y * y);
+    sums.second[1][at] += slice.along_squared * (x * y);
+    sums.second[2][at] += slice.sky - slice.along_squared;
+    sums.second[3][at] += slice.mixed * x;
+    sums.second[4][at] += slice.mixed * y;
   }
 }
 
-/// Calls horizon(i, j, tangent) for every receiver of the tile and adds what is above.
-template <class Horizon>
-void for_receivers(const WalkTile& tile, const AzimuthTable& azimuth, float weight, SkySums& sums,
-                   Horizon&& horizon) {
+/// Calls slice_of(i, j, c, n_z, tangent) for every receiver of the tile and adds what it returns.
+template <class SliceOf>
+void for_receivers(const WalkTile& tile, const AzimuthTable& azimuth, SkySums& sums, SliceOf&& slice_of) {
   for (int i = 0; i < tile.rows; ++i) {
     for (int j = 0; j < tile.columns; ++j) {
       const auto at = static_cast<std::size_t>(i * WalkTile::kSide + j);
       const float tangent = tile.slope_x[at] * azimuth.world_x + tile.slope_y[at] * azimuth.world_y;
-      add_slice(tile, azimuth, at, tangent, horizon(i, j, tangent), weight, sums);
+      const float n_z = tile.normal_z[at];
+      const float c = -n_z * tangent;
+      const bool steep = n_z * n_z * (1 + kSteep * kSteep) < 1;
+      const float full = steep ? integrate_slice(c, n_z, tangent, {}).sky : 1;
+      add_slice(azimuth, at, slice_of(i, j, c, n_z, tangent), full, sums);
     }
   }
+}
+
+/// Likewise, of what lies above horizon(i, j, tangent).
+template <class Horizon>
+void add_above(const WalkTile& tile, const AzimuthTable& azimuth, SkySums& sums, Horizon&& horizon) {
+  for_receivers(tile, azimuth, sums, [&](int i, int j, float c, float n_z, float tangent) {
+    const float m = horizon(i, j, tangent);
+    if (sums.keep_slope) sums.slope[static_cast<std::size_t>(i * WalkTile::kSide + j)] = m;
+    return integrate_slice(c, n_z, m, sums.wanted);
+  });
 }
 
 }  // namespace
@@ -157,15 +248,20 @@ void SkySums::clear() {
 }
 
 void walk_sky_scalar(const WalkTile& tile, const AzimuthTable& azimuth, const FarView& far, SkySums& sums) {
-  for_receivers(tile, azimuth, 1, sums, [&](int i, int j, float tangent) {
-    return horizon_slope(tile, azimuth, far, i, j, tangent);
-  });
+  add_above(tile, azimuth, sums,
+            [&](int i, int j, float tangent) { return horizon_slope(tile, azimuth, far, i, j, tangent); });
 }
 
 void walk_sky_within_scalar(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach,
-                            float weight, SkySums& sums) {
-  for_receivers(tile, azimuth, weight, sums, [&](int i, int j, float tangent) {
-    return horizon_slope_within(tile, azimuth, reach, i, j, tangent);
+                            SkySums& sums) {
+  if (reach.falloff == Falloff::none) {
+    add_above(tile, azimuth, sums, [&](int i, int j, float tangent) {
+      return horizon_slope_within(tile, azimuth, reach, i, j, tangent);
+    });
+    return;
+  }
+  for_receivers(tile, azimuth, sums, [&](int i, int j, float c, float n_z, float tangent) {
+    return fading_slice(tile, azimuth, reach, i, j, c, n_z, tangent, sums.wanted);
   });
 }
 

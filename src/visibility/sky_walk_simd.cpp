@@ -17,75 +17,171 @@
 HWY_BEFORE_NAMESPACE();
 namespace heightlight::HWY_NAMESPACE {
 
-HWY_INLINE void add_to(float* sum, VF weight, VF value) {
-  hn::Store(hn::MulAdd(weight, value, hn::Load(kF, sum)), kF, sum);
+/// What slices send from above a slope; as in sky_walk_scalar.cpp.
+struct SliceSums {
+  VF sky, solid, along, up, along_squared, mixed;
+};
+
+HWY_INLINE SliceSums integrate_sums(VF c, VF n_z, VF m, const SkyWanted& wanted) {
+  const Slice slice = integrate_slice(c, n_z, m);
+  const VF zero = hn::Zero(kF);
+  SliceSums sums{slice.sky, slice.solid, zero, zero, zero, zero};
+  if (wanted.first) {
+    const FirstMoments first = integrate_first(c, n_z, m);
+    sums.along = first.along;
+    sums.up = first.up;
+  }
+  if (wanted.second) {
+    const SecondMoments second = integrate_second(c, n_z, m);
+    sums.along_squared = second.along;
+    sums.mixed = second.mixed;
+  }
+  return sums;
 }
 
-/// Adds the slices above the horizons of vector v to its receivers' sums.
+/// open += share × (above − next).
+HWY_INLINE void add_between(VF share, const SliceSums& above, const SliceSums& next, const SkyWanted& wanted,
+                            SliceSums& open) {
+  open.sky = hn::MulAdd(share, hn::Sub(above.sky, next.sky), open.sky);
+  open.solid = hn::MulAdd(share, hn::Sub(above.solid, next.solid), open.solid);
+  if (wanted.first) {
+    open.along = hn::MulAdd(share, hn::Sub(above.along, next.along), open.along);
+    open.up = hn::MulAdd(share, hn::Sub(above.up, next.up), open.up);
+  }
+  if (wanted.second) {
+    open.along_squared =
+        hn::MulAdd(share, hn::Sub(above.along_squared, next.along_squared), open.along_squared);
+    open.mixed = hn::MulAdd(share, hn::Sub(above.mixed, next.mixed), open.mixed);
+  }
+}
+
+HWY_INLINE void add_to(float* sum, float factor, VF value) {
+  hn::Store(hn::MulAdd(hn::Set(kF, factor), value, hn::Load(kF, sum)), kF, sum);
+}
+
+/// Adds the slices of vector v to its receivers' sums.
 HWY_INLINE void add_slices(const WalkTile& tile, const AzimuthTable& azimuth, const Bunch& bunch,
-                           std::size_t v, float weight, SkySums& sums) {
-  const VF one = hn::Set(kF, 1.0F);
-  const VF steep = hn::Set(kF, 1 / (1 + kSteep * kSteep));
-  const VF share = hn::Set(kF, weight);
+                           std::size_t v, const SliceSums& slices, SkySums& sums) {
   const std::size_t at = bunch.first + v * hn::Lanes(kF);
   const VF n_z = hn::Load(kF, tile.normal_z.data() + at);
-  const VF c = hn::Neg(hn::Mul(n_z, bunch.tangent[v]));
-  const VF m = bunch.slope[v];
-  const Slice slice = integrate_slice(c, n_z, m);
-  add_to(sums.sky.data() + at, share, slice.sky);
-  add_to(sums.solid.data() + at, share, slice.solid);
-  const auto is_steep = hn::Lt(hn::Mul(n_z, n_z), steep);
-  VF full = one;
+  add_to(sums.sky.data() + at, 1, slices.sky);
+  add_to(sums.solid.data() + at, 1, slices.solid);
+  const auto is_steep = hn::Lt(hn::Mul(n_z, n_z), hn::Set(kF, 1 / (1 + kSteep * kSteep)));
+  VF full = hn::Set(kF, 1.0F);
   if (HWY_UNLIKELY(!hn::AllFalse(kF, is_steep))) {
-    full = hn::IfThenElse(is_steep, integrate_slice(c, n_z, bunch.tangent[v]).sky, one);
+    const VF c = hn::Neg(hn::Mul(n_z, bunch.tangent[v]));
+    full = hn::IfThenElse(is_steep, integrate_slice(c, n_z, bunch.tangent[v]).sky, full);
   }
-  add_to(sums.full.data() + at, share, full);
-  if (sums.keep_slope) hn::Store(m, kF, sums.slope.data() + at);
+  add_to(sums.full.data() + at, 1, full);
   const float x = azimuth.world_x;
   const float y = azimuth.world_y;
   if (sums.wanted.first) {
-    const FirstMoments moments = integrate_first(c, n_z, m);
-    add_to(sums.first[0].data() + at, hn::Set(kF, weight * x), moments.along);
-    add_to(sums.first[1].data() + at, hn::Set(kF, weight * y), moments.along);
-    add_to(sums.first[2].data() + at, share, moments.up);
+    add_to(sums.first[0].data() + at, x, slices.along);
+    add_to(sums.first[1].data() + at, y, slices.along);
+    add_to(sums.first[2].data() + at, 1, slices.up);
   }
   if (sums.wanted.second) {
-    const SecondMoments moments = integrate_second(c, n_z, m);
-    add_to(sums.second[0].data() + at, hn::Set(kF, weight * (x * x - y * y)), moments.along);
-    add_to(sums.second[1].data() + at, hn::Set(kF, weight * (x * y)), moments.along);
-    add_to(sums.second[2].data() + at, share, hn::Sub(slice.sky, moments.along));
-    add_to(sums.second[3].data() + at, hn::Set(kF, weight * x), moments.mixed);
-    add_to(sums.second[4].data() + at, hn::Set(kF, weight * y), moments.mixed);
+    add_to(sums.second[0].data() + at, x * x - y * y, slices.along_squared);
+    add_to(sums.second[1].data() + at, x * y, slices.along_squared);
+    add_to(sums.second[2].data() + at, 1, hn::Sub(slices.sky, slices.along_squared));
+    add_to(sums.second[3].data() + at, x, slices.mixed);
+    add_to(sums.second[4].data() + at, y, slices.mixed);
   }
 }
 
-/// Calls look(walk, bunch) for all receivers of the tile and adds what is above their horizons.
-template <class Look>
-HWY_INLINE void for_bunches(const WalkTile& tile, const AzimuthTable& azimuth, float weight, SkySums& sums,
-                            Look&& look) {
+/// Calls work(walk, bunch) for all receivers of the tile.
+template <class Work>
+HWY_INLINE void for_bunches(const WalkTile& tile, const AzimuthTable& azimuth, Work&& work) {
   const LaneWalk walk(tile, azimuth);
   for (int row = 0; row < tile.rows; ++row) {
     for (int column = 0; column < tile.columns; column += static_cast<int>(kBunch * hn::Lanes(kF))) {
       Bunch bunch = walk.begin(row, column);
-      look(walk, bunch);
-      for (std::size_t v = 0; v < kBunch; ++v) add_slices(tile, azimuth, bunch, v, weight, sums);
+      work(walk, bunch);
     }
   }
+}
+
+/// Likewise, and adds what lies above the horizons that look(walk, bunch) finds.
+template <class Look>
+HWY_INLINE void add_above(const WalkTile& tile, const AzimuthTable& azimuth, SkySums& sums, Look&& look) {
+  for_bunches(tile, azimuth, [&](const LaneWalk& walk, Bunch& bunch) HWY_ATTR {
+    look(walk, bunch);
+    for (std::size_t v = 0; v < kBunch; ++v) {
+      const std::size_t at = bunch.first + v * hn::Lanes(kF);
+      const VF n_z = hn::Load(kF, tile.normal_z.data() + at);
+      const VF c = hn::Neg(hn::Mul(n_z, bunch.tangent[v]));
+      if (sums.keep_slope) hn::Store(bunch.slope[v], kF, sums.slope.data() + at);
+      add_slices(tile, azimuth, bunch, v, integrate_sums(c, n_z, bunch.slope[v], sums.wanted), sums);
+    }
+  });
 }
 
 void walk_sky_lanes(const WalkTile& tile, const AzimuthTable& azimuth, const FarView& far, SkySums& sums) {
   // A vector spans whole groups.
   if constexpr (hn::MaxLanes(kF) < WalkTile::kGroup) return walk_sky_scalar(tile, azimuth, far, sums);
-  for_bunches(tile, azimuth, 1, sums, [&](const LaneWalk& walk, Bunch& bunch) HWY_ATTR {
+  add_above(tile, azimuth, sums, [&](const LaneWalk& walk, Bunch& bunch) HWY_ATTR {
     walk.look_near(bunch);
     walk.look_far(far, bunch);
     walk.look_at_ring(bunch);
   });
 }
 
+/// μ of stretches; share_of_stretch of sky_walk_scalar.cpp.
+HWY_INLINE VF share_of_stretches(VF begin, float before, VF rise, float way, VF m, VF seen,
+                                 const ReachTable& reach) {
+  const VF one = hn::Set(kF, 1.0F);
+  const VF first = hn::Set(kF, before);
+  const VF last = hn::Set(kF, way);
+  const VF g = hn::Mul(hn::Sub(rise, begin), hn::Set(kF, 1 / run_between(before, way)));
+  const VF p = hn::NegMulAdd(g, first, begin);
+  const auto passes_later = hn::Lt(m, g);
+  const VF steeper = hn::IfThenElse(passes_later, hn::Sub(g, m), one);
+  const VF passes = hn::IfThenElse(passes_later, hn::Div(hn::Neg(p), steeper), first);
+  const VF clamped = hn::Min(hn::Max(passes, first), last);
+  const VF middle_way = before > 0 ? hn::Mul(hn::Set(kF, 0.5F), hn::Add(clamped, last)) : last;
+  const VF low = hn::Div(one, hn::Sqrt(hn::MulAdd(m, m, one)));
+  const VF high = hn::Div(one, hn::Sqrt(hn::MulAdd(seen, seen, one)));
+  const VF middle = hn::Div(hn::MulAdd(m, low, hn::Mul(seen, high)), hn::Add(low, high));
+  const VF distance = hn::Mul(middle_way, hn::Sqrt(hn::MulAdd(middle, middle, one)));
+  const VF share = hn::Min(one, hn::Div(distance, hn::Set(kF, reach.distance)));
+  return reach.falloff == Falloff::root ? hn::Sqrt(share) : share;
+}
+
+HWY_INLINE void walk_fading(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach,
+                            SkySums& sums) {
+  for_bunches(tile, azimuth, [&](const LaneWalk& walk, Bunch& bunch) HWY_ATTR {
+    const VF zero = hn::Zero(kF);
+    std::array<VF, kBunch> n_z, c;
+    std::array<SliceSums, kBunch> open, above;
+    for (std::size_t v = 0; v < kBunch; ++v) {
+      n_z[v] = hn::Load(kF, tile.normal_z.data() + bunch.first + v * hn::Lanes(kF));
+      c[v] = hn::Neg(hn::Mul(n_z[v], bunch.tangent[v]));
+      open[v] = {zero, zero, zero, zero, zero, zero};
+      above[v] = integrate_sums(c[v], n_z[v], bunch.slope[v], sums.wanted);
+    }
+    const auto see = [&](std::size_t v, VF begin, float before, VF rise, float way, VF seen) HWY_ATTR {
+      const VF m = bunch.slope[v];
+      if (hn::AllFalse(kF, hn::Gt(seen, m))) return;
+      const VF higher = hn::Max(m, seen);  // where nothing rises, what is between both is nothing
+      const SliceSums next = integrate_sums(c[v], n_z[v], higher, sums.wanted);
+      const VF share = share_of_stretches(begin, before, rise, way, m, higher, reach);
+      add_between(share, above[v], next, sums.wanted, open[v]);
+      above[v] = next;
+      bunch.slope[v] = higher;
+    };
+    walk.for_stretches(reach, bunch, see);
+    const SliceSums nothing{zero, zero, zero, zero, zero, zero};
+    for (std::size_t v = 0; v < kBunch; ++v) {
+      add_between(hn::Set(kF, 1.0F), above[v], nothing, sums.wanted, open[v]);
+      add_slices(tile, azimuth, bunch, v, open[v], sums);
+    }
+  });
+}
+
 void walk_sky_within_lanes(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach,
-                           float weight, SkySums& sums) {
-  for_bunches(tile, azimuth, weight, sums, [&](const LaneWalk& walk, Bunch& bunch) HWY_ATTR {
+                           SkySums& sums) {
+  if (reach.falloff != Falloff::none) return walk_fading(tile, azimuth, reach, sums);
+  add_above(tile, azimuth, sums, [&](const LaneWalk& walk, Bunch& bunch) HWY_ATTR {
     walk.look_near_within(reach, bunch);
     walk.look_at_rings_within(reach, bunch);
   });
@@ -104,9 +200,9 @@ void walk_sky(const WalkTile& tile, const AzimuthTable& azimuth, const FarView& 
   HWY_DYNAMIC_DISPATCH(walk_sky_lanes)(tile, azimuth, far, sums);
 }
 
-void walk_sky_within(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach, float weight,
+void walk_sky_within(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach,
                      SkySums& sums) {
-  HWY_DYNAMIC_DISPATCH(walk_sky_within_lanes)(tile, azimuth, reach, weight, sums);
+  HWY_DYNAMIC_DISPATCH(walk_sky_within_lanes)(tile, azimuth, reach, sums);
 }
 
 }  // namespace heightlight

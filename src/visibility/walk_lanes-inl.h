@@ -163,11 +163,32 @@ class LaneWalk {
 
   /// Rings within a reach, from every receiver for itself.
   void look_at_rings_within(const ReachTable& reach, Bunch& bunch) const {
-    for (std::size_t ring = 0; ring < reach.caps.size(); ++ring) {
-      for (std::size_t k = 0; k < reach.caps[ring].size(); ++k) {
-        look_at_block_within(azimuth_.rings[ring][k], static_cast<int>(ring) + 1, reach.caps[ring][k], bunch);
-      }
-    }
+    for_ring_samples(bunch, reach, [&](const RingSample&, float cap, std::size_t v, VF seen) HWY_ATTR {
+      bunch.slope[v] = hn::Max(bunch.slope[v], hn::Min(seen, hn::Set(kF, cap)));
+    });
+  }
+
+  /// Calls see(v, begin, before, rise, way, slope) for every stretch of the profile that begins within a
+  /// reach: from `before`, where it is `begin` higher than the receiver, to `way`, where it is `rise` higher
+  /// and seen under the slope.
+  template <class See>
+  HWY_INLINE void for_stretches(const ReachTable& reach, const Bunch& bunch, See&& see) const {
+    std::array<VF, kBunch> begin_rise;
+    begin_rise.fill(hn::Zero(kF));
+    std::array<float, kBunch> begin_way{};
+    const VF deepest = hn::Set(kF, reach.deepest);
+    const auto end_at = [&](float way, std::size_t v, VF seen) HWY_ATTR {
+      const VF rise = hn::Max(hn::Mul(seen, hn::Set(kF, way)), deepest);
+      see(v, begin_rise[v], begin_way[v], rise, way, seen);
+      begin_rise[v] = rise;
+      begin_way[v] = way;
+    };
+    for_near(bunch, reach.near, [&](const NearSample& sample, std::size_t v, VF seen) HWY_ATTR {
+      end_at(1 / sample.per_distance, v, seen);
+    });
+    for_ring_samples(bunch, reach, [&](const RingSample& sample, float, std::size_t v, VF seen) HWY_ATTR {
+      end_at(1 / sample.per_distance, v, seen);
+    });
   }
 
   /// Ring 1, unless it is too low to be seen.
@@ -245,14 +266,14 @@ class LaneWalk {
   /// Of the stretch from (before, begin) to (way, rise): sky_walk_scalar.cpp derives it.
   static VF exit_slope(VF begin, float before, VF rise, float way, VF squared) {
     constexpr float kRounding = 1e-5F;
-    const VF g = hn::Mul(hn::Sub(rise, begin), hn::Set(kF, 1 / (way - before)));
+    const VF g = hn::Mul(hn::Sub(rise, begin), hn::Set(kF, 1 / run_between(before, way)));
     const VF p = hn::NegMulAdd(g, hn::Set(kF, before), begin);
     const VF u = hn::MulAdd(g, g, hn::Set(kF, 1.0F));
     const VF root = hn::NegMulAdd(p, p, hn::Mul(squared, u));
     const VF at = hn::Div(hn::NegMulAdd(p, g, hn::Sqrt(hn::Max(root, hn::Zero(kF)))), u);
-    const auto meets =
-        hn::And(hn::Ge(root, hn::Zero(kF)), hn::And(hn::Ge(at, hn::Set(kF, before * (1 - kRounding))),
-                                                    hn::Le(at, hn::Set(kF, way * (1 + kRounding)))));
+    const auto meets = hn::And(hn::And(hn::Ge(root, hn::Zero(kF)), hn::Lt(p, hn::Zero(kF))),
+                               hn::And(hn::Ge(at, hn::Set(kF, before * (1 - kRounding))),
+                                       hn::Le(at, hn::Set(kF, way * (1 + kRounding)))));
     return hn::IfThenElse(meets, hn::Add(hn::Div(p, at), g), hn::Set(kF, kNoHeight));
   }
 
@@ -279,21 +300,27 @@ class LaneWalk {
     }
   }
 
-  /// The same of any ring, no higher than `cap`.
-  void look_at_block_within(const RingSample& sample, int level, float cap, Bunch& bunch) const {
-    const HeightWindow& window = tile_.windows[static_cast<std::size_t>(level)];
-    const int row = (tile_.first_row + bunch.row + sample.row) >> level;
-    const float* line =
-        window.values.data() + std::ptrdiff_t{row - window.first_row} * window.width - window.first_column;
-    const VF per_distance = hn::Set(kF, sample.per_distance);
-    for (std::size_t v = 0; v < kBunch; ++v) {
-      const int first =
-          tile_.first_column + bunch.column + sample.column + static_cast<int>(v * hn::Lanes(kF));
-      const VI blocks = hn::ShiftRightSame(hn::Iota(kI, first & ((1 << level) - 1)), level);
-      const VF height =
-          hn::TableLookupLanes(hn::LoadU(kF, line + (first >> level)), hn::IndicesFromVec(kF, blocks));
-      const VF seen = hn::Mul(hn::Sub(height, bunch.height[v]), per_distance);
-      bunch.slope[v] = hn::Max(bunch.slope[v], hn::Min(seen, hn::Set(kF, cap)));
+  /// Calls see(sample, cap, v, slope) for the ring samples within a reach and each vector of the bunch.
+  template <class See>
+  HWY_INLINE void for_ring_samples(const Bunch& bunch, const ReachTable& reach, See&& see) const {
+    for (std::size_t ring = 0; ring < reach.caps.size(); ++ring) {
+      const int level = static_cast<int>(ring) + 1;
+      const HeightWindow& window = tile_.windows[ring + 1];
+      for (std::size_t k = 0; k < reach.caps[ring].size(); ++k) {
+        const RingSample& sample = azimuth_.rings[ring][k];
+        const int row = (tile_.first_row + bunch.row + sample.row) >> level;
+        const float* line = window.values.data() + std::ptrdiff_t{row - window.first_row} * window.width -
+                            window.first_column;
+        const VF per_distance = hn::Set(kF, sample.per_distance);
+        for (std::size_t v = 0; v < kBunch; ++v) {
+          const int first =
+              tile_.first_column + bunch.column + sample.column + static_cast<int>(v * hn::Lanes(kF));
+          const VI blocks = hn::ShiftRightSame(hn::Iota(kI, first & ((1 << level) - 1)), level);
+          const VF height =
+              hn::TableLookupLanes(hn::LoadU(kF, line + (first >> level)), hn::IndicesFromVec(kF, blocks));
+          see(sample, reach.caps[ring][k], v, hn::Mul(hn::Sub(height, bunch.height[v]), per_distance));
+        }
+      }
     }
   }
 

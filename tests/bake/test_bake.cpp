@@ -31,8 +31,7 @@ std::set<std::string> names_in(const std::filesystem::path& folder) {
 TEST_CASE("bake writes the files that it names, and nothing else", "[bake]") {
   const ScratchFolder folder;
   BakeOptions options;
-  options.maps = GENERATE(std::vector<MaterialMap>{MaterialMap::normal},
-                          std::vector<MaterialMap>{MaterialMap::ao}, all_maps());
+  options.maps = GENERATE(std::vector<MaterialMap>{MaterialMap::normal}, all_maps());
   options.packed = {{MaterialMap::ao, 0, 0}, {std::nullopt, 0, 0.5}, {MaterialMap::normal, 1, 0}};
   bake_map(make_synth_map("brick", 48, Boundary::tile, 0.1), options, folder.path());
   const std::vector<std::string> expected = baked_files("m", options);
@@ -98,7 +97,7 @@ TEST_CASE("levels are the float files' values, rounded", "[bake]") {
     }
     INFO(name);
     // half a level (and the hair by which halves go up); half floats round to 2^-11 of the value
-    CHECK(worst <= (0.5 + 0.001) / 65535 + (options.depth == TextureDepth::half ? std::ldexp(1, -11) : 1e-7));
+    CHECK(worst <= (0.5 + 0.005) / 65535 + (options.depth == TextureDepth::half ? std::ldexp(1, -11) : 1e-7));
   }
 }
 
@@ -165,8 +164,8 @@ TEST_CASE("tiles stay tiles to the last bit, dithered too", "[bake]") {
   const auto [rows, columns] = GENERATE(std::pair{64, 0}, std::pair{64, 128});
   const Heightmap map = make_synth_map("brick", 192, Boundary::tile, 0.1);
   BakeOptions options;
-  options.maps = {MaterialMap::ao, MaterialMap::bent_normal, MaterialMap::multibounce, MaterialMap::sh,
-                  MaterialMap::horizon};
+  options.maps = {MaterialMap::ao, MaterialMap::bent_normal, MaterialMap::sh, MaterialMap::horizon};
+  options.reach = GENERATE(std::optional<Reach>{}, std::optional<Reach>{{0.1, Falloff::linear}});
   options.depth = TextureDepth::uint8;
   options.dither = true;
   options.azimuths = 16;
