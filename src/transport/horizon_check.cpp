@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -9,7 +10,7 @@
 namespace heightlight {
 namespace {
 
-constexpr int kReceivers = 256;
+constexpr std::int64_t kReceivers = 256;
 constexpr int kAzimuths = 256;
 
 struct ReceiverError {
@@ -19,17 +20,25 @@ struct ReceiverError {
   double gain = 1;  ///< 1/(1 − ρ (1 − A))
 };
 
+/// The i-th of `count` texels, one from each of as many equal parts of a map of `texels`.
+Eigen::Index pick_texel(std::int64_t i, std::int64_t count, std::int64_t texels, std::uint64_t seed) {
+  const std::int64_t begin = texels * i / count;
+  const std::int64_t end = texels * (i + 1) / count;
+  const std::uint64_t pick = hash_combine(seed + 2, static_cast<std::uint64_t>(i));
+  return begin + static_cast<Eigen::Index>(pick % static_cast<std::uint64_t>(end - begin));
+}
+
 }  // namespace
 
 HorizonCheck check_by_exact_walks(const Surface& surface, const Transport& transport,
                                   const TexelVector& total, const TexelVector& albedo, std::uint64_t seed) {
   const ExactWalker walker(surface, kAzimuths);
   const TexelVector radiosity = albedo.cwiseProduct(total);
-  std::vector<ReceiverError> errors(kReceivers);
-  parallel_for(kReceivers, [&](std::int64_t i) {
-    const std::uint64_t pick = hash_combine(seed + 2, static_cast<std::uint64_t>(i));
-    const auto texel =
-        static_cast<Eigen::Index>(pick % static_cast<std::uint64_t>(surface.map.height.size()));
+  const auto texels = static_cast<std::int64_t>(surface.map.height.size());
+  const std::int64_t count = std::min(kReceivers, texels);
+  std::vector<ReceiverError> errors(static_cast<std::size_t>(count));
+  parallel_for(count, [&](std::int64_t i) {
+    const Eigen::Index texel = pick_texel(i, count, texels, seed);
     SliceView view;
     walker.view(static_cast<int>(texel / surface.width()), static_cast<int>(texel % surface.width()), view);
     if (std::isnan(view.sky_view_factor)) return;

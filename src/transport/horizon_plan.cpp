@@ -15,10 +15,6 @@ constexpr double kAim = 0.9;
 constexpr double kSamplingShare = 0.9;
 constexpr double kLinkShare = 0.9;
 
-/// An error of what one gather of the direct light brings becomes one of the total at ρ = 0.8 that is
-/// smaller: the total is the more even field. Measured 0.4 (smooth) to 0.7 (steep bricks).
-constexpr double kTotalPerGather = 0.7;
-
 /// Where the total alone is wanted: the share of its error that the sky may take, at albedo kAlbedo, what is
 /// seen having a mean total of kTotalSeen at least (deep joints between bricks: 0.6; open ground: 0.9 and
 /// more).
@@ -29,10 +25,14 @@ constexpr double kTotalSeen = 0.75;
 /// Azimuths from which an error follows by K^(−3/2), as it does for horizons with jumps.
 constexpr int kTriedAzimuths = 16;
 constexpr double kAzimuthOrder = 1.5;
+constexpr int kFewestAzimuths = 4;
 
-/// Cost of a walk's azimuth by its fineness, in units of ν: measured 8.2, 10, 16 and 29 ns for ν of 8, 16,
-/// 32, 64.
-double azimuth_cost(int fineness) { return 12 + fineness; }
+/// Shares of the peaks tried: 0, 0.3 and this.
+constexpr float kHighestPeakShare = 0.6F;
+
+/// Cost of a walk's azimuth by its fineness, in units of ν: measured 4.8, 6.4, 8.1, 11.2 and 14.3 ns for ν of
+/// 8, 12, 16, 24 and 32.
+double azimuth_cost(int fineness) { return 4 + fineness; }
 
 /// The walk that should reach the error at the least cost, as far as its sampling goes: what that leaves of
 /// the error, azimuths must fill. Where no sampling is good enough, the best.
@@ -45,17 +45,17 @@ WalkOptions choose_sampling(HorizonPilot& pilot, double error, int azimuths, dou
   WalkOptions best_sampled;
   double least = std::numeric_limits<double>::infinity();
   double least_sampling = least;
-  float share = 0.3F;  // the best so far: finer walks want the same, or more
-  for (const int fineness : {8, 12, 16, 24, 32, 48, 64, 96, 128}) {
+  float share = 0;  // the best so far: finer walks want the same, or more
+  for (const int fineness : {8, 12, 16, 20, 24, 32, 48, 64, 96, 128}) {
     // A finer walk that had no sampling error at all would not pay any more.
     if (azimuths_for(error) * azimuth_cost(fineness) >= least) break;
     double sampling = pilot.sampling_error(fineness, share);
-    for (const float other : {share - 0.3F, share + 0.3F}) {
-      if (other < -0.01F || other > 0.61F) continue;
-      const double found = pilot.sampling_error(fineness, other);
-      if (found >= sampling) continue;
+    while (share < kHighestPeakShare) {
+      const float more = share + 0.3F;
+      const double found = pilot.sampling_error(fineness, more);
+      if (found >= sampling) break;
       sampling = found;
-      share = other;
+      share = more;
     }
     if (sampling < least_sampling) best_sampled = {2, fineness, share};
     least_sampling = std::min(least_sampling, sampling);
@@ -71,23 +71,40 @@ WalkOptions choose_sampling(HorizonPilot& pilot, double error, int azimuths, dou
   return best_sampled;
 }
 
-/// The fewest azimuths that leave no more than the error, in steps of an eighth, from below the number that a
-/// few tell.
+/// The fewest azimuths that leave no more than the error, in steps of a tenth from the number that a few
+/// tell, upwards or downwards.
 WalkOptions choose_azimuths(HorizonPilot& pilot, WalkOptions options, double error, double& reached) {
   options.azimuths = kTriedAzimuths;
   const double tried = pilot.azimuth_error(options);
-  const double guess = 0.8 * kTriedAzimuths * std::pow(tried / error, 1 / kAzimuthOrder);
-  int azimuths = std::clamp(static_cast<int>(guess) / 2 * 2, 4, HorizonPilot::kManyAzimuths);
-  for (;; azimuths += std::max(2, azimuths / 16 * 2)) {
-    options.azimuths = azimuths;
+  const double guess = kTriedAzimuths * std::pow(tried / error, 1 / kAzimuthOrder);
+  options.azimuths =
+      std::clamp(static_cast<int>(guess) / 2 * 2, kFewestAzimuths, HorizonPilot::kManyAzimuths);
+  reached = pilot.azimuth_error(options);
+  const auto step = [](int azimuths) { return std::max(2, azimuths / 20 * 2); };
+  while (reached > error && options.azimuths < HorizonPilot::kManyAzimuths) {
+    options.azimuths += step(options.azimuths);
     reached = pilot.azimuth_error(options);
-    if (reached <= error || azimuths >= HorizonPilot::kManyAzimuths) break;
+    if (reached <= error) return options;
+  }
+  while (reached <= error && options.azimuths > kFewestAzimuths) {
+    WalkOptions fewer = options;
+    fewer.azimuths -= step(options.azimuths);
+    const double found = pilot.azimuth_error(fewer);
+    if (found > error) break;
+    options = fewer;
+    reached = found;
   }
   return options;
 }
 
+/// Radiosity / π at albedo kAlbedo, were every receiver to see only its like: ρA / (1 − ρ(1 − A)). What links
+/// make of it errs by about as much as what they make of the true one.
+TexelVector guess_radiosity(const TexelVector& direct) {
+  return (kAlbedo * direct.array() / (1 - kAlbedo * (1 - direct.array()))).matrix();
+}
+
 /// The cheapest links of all receivers that are good enough, else the best.
-WalkOptions choose_links(HorizonPilot& pilot, const LightMips& light, const TexelVector& direct,
+WalkOptions choose_links(HorizonPilot& pilot, const LightMips& light, const TexelVector& radiosity,
                          float peak_share, double error, double& reached) {
   WalkOptions best;
   reached = std::numeric_limits<double>::infinity();
@@ -104,7 +121,7 @@ WalkOptions choose_links(HorizonPilot& pilot, const LightMips& light, const Texe
                                                         {48, 32}}};
   for (const auto& [azimuths, fineness] : kLadder) {
     const WalkOptions options{azimuths, fineness, peak_share};
-    const double links = kTotalPerGather * pilot.link_error(options, light, direct);
+    const double links = pilot.link_error(options, light, radiosity);
     if (links < reached) {
       reached = links;
       best = options;
@@ -143,20 +160,22 @@ std::unique_ptr<SeenLight> plan_links(HorizonPilot& pilot, const HeightMips& mip
   const Surface& surface = pilot.surface();
   plan.links.peak_share = plan.sky.peak_share;
   if (!pilot.empty()) {
+    const TexelVector radiosity = guess_radiosity(direct);
     for (const int stride : {8, 4, 2}) {
       if (!ReceiverLattice::fits(surface, stride)) continue;
       plan.link_stride = stride;
       plan.links = {12, 8, plan.sky.peak_share};
       auto light = std::make_unique<SeenLight>(surface, mips, plan, options);
       TexelVector gathered(direct.size());
-      light->gather(direct, direct, gathered);
-      plan.link_error = kTotalPerGather * pilot.gather_error(direct, gathered, direct);
+      light->gather(radiosity, direct, gathered);
+      plan.link_error = pilot.gather_error(radiosity, gathered, direct);
       if (plan.link_error <= kLinkShare * kAim * goal.error) return light;
     }
     plan.link_stride = 1;
     LightMips light(surface);
-    light.fill(direct);
-    plan.links = choose_links(pilot, light, direct, plan.sky.peak_share, kAim * goal.error, plan.link_error);
+    light.fill(radiosity);
+    plan.links =
+        choose_links(pilot, light, radiosity, plan.sky.peak_share, kAim * goal.error, plan.link_error);
   }
   return std::make_unique<SeenLight>(surface, mips, plan, options);
 }

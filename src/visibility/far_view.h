@@ -13,14 +13,14 @@
 // height. (That is exact where one line leads at both ends, and else a little low.) Its receivers then have
 // three things to look at.
 //
-// Ring 2 is looked at by groups of 4 × 4, rings from 3 on by groups of 8 × 8, which hand their lines down. A
+// Ring 1 is looked at by groups of 4 × 4, rings from 2 on by groups of 8 × 8, which hand their lines down. A
 // place δ further along the azimuth than the look-out is nearer to the thing: 1/(d − δ) ≈ (1 + δ/d)/d.
 
 namespace heightlight {
 
 /// The first rings that groups and wide groups look at.
-constexpr int kGroupRing = 2;
-constexpr int kWideGroupRing = 3;
+constexpr int kGroupRing = 1;
+constexpr int kWideGroupRing = 2;
 
 /// Lines kept per group: (height − z) × per_distance. Absent ones have the height kNoHeight, at 1 / kNowhere:
 /// below any slope, and so far that no receiver's place changes that.

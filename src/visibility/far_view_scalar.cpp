@@ -31,9 +31,9 @@ void look_at_ring(const WalkTile& tile, const AzimuthTable& azimuth, int ring, i
                   Envelope& envelope) {
   const HeightWindow& window = tile.windows[static_cast<std::size_t>(ring)];
   for (const RingSample& sample : azimuth.rings[static_cast<std::size_t>(ring) - 1]) {
-    const int i = ((row + sample.row) >> ring) - window.first_row;
-    const int j = ((column + sample.column) >> ring) - window.first_column;
-    envelope.see(window.values[static_cast<std::size_t>(i * window.width + j)], sample.per_distance);
+    const float height =
+        window.at((row + sample.row) >> window.level, (column + sample.column) >> window.level);
+    envelope.see(height, sample.per_distance);
   }
 }
 

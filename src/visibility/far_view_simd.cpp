@@ -48,14 +48,15 @@ struct Envelopes {
 HWY_INLINE void look_at_ring(const WalkTile& tile, const AzimuthTable& azimuth, int ring, int row, int column,
                              int side, Envelopes& envelopes) {
   const HeightWindow& window = tile.windows[static_cast<std::size_t>(ring)];
+  const int level = window.level;
   const auto spread = hn::Mul(hn::Iota(kI, 0), hn::Set(kI, side));
   for (const RingSample& sample : azimuth.rings[static_cast<std::size_t>(ring) - 1]) {
     const int start = column + sample.column;
     const float* first = window.values.data() +
-                         std::ptrdiff_t{((row + sample.row) >> ring) - window.first_row} * window.width +
-                         ((start >> ring) - window.first_column);
-    const int phase = start & ((1 << ring) - 1);
-    const auto order = hn::IndicesFromVec(kF, hn::ShiftRightSame(hn::Add(hn::Set(kI, phase), spread), ring));
+                         std::ptrdiff_t{((row + sample.row) >> level) - window.first_row} * window.width +
+                         ((start >> level) - window.first_column);
+    const int phase = start & ((1 << level) - 1);
+    const auto order = hn::IndicesFromVec(kF, hn::ShiftRightSame(hn::Add(hn::Set(kI, phase), spread), level));
     envelopes.see(hn::TableLookupLanes(hn::LoadU(kF, first), order), hn::Set(kF, sample.per_distance));
   }
 }

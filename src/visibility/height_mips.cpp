@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/parallel.h"
+#include "surface/occluders.h"
 
 namespace heightlight {
 namespace {
@@ -59,7 +60,8 @@ std::uint64_t height_mips_bytes(int width, int height) {
 
 HeightMips build_height_mips(const Surface& surface) {
   HeightMips mips;
-  const Image<float>* mean = &surface.map.height;
+  if (has_loose_samples(surface)) mips.occluders = occluding_heights(surface);
+  const Image<float>* mean = &mips.level_0(surface);
   const Image<float>* highest = mean;
   while (mean->width > 1 || mean->height > 1) {
     mips.levels.reserve(32);  // so that the pointers into it stay

@@ -7,15 +7,20 @@
 namespace heightlight {
 
 /// Heights over square blocks of samples, for what a receiver sees from afar. Level l covers blocks of 2^l ×
-/// 2^l samples, ⌈width / 2^l⌉ × ⌈height / 2^l⌉ of them; level 0 is the map itself and is not stored again.
-/// The last level is one block. Heights are relative to the map's base, like the map's own; kNoHeight where a
-/// block holds no sample.
+/// 2^l samples, ⌈width / 2^l⌉ × ⌈height / 2^l⌉ of them. The last level is one block. Samples that bound no
+/// facet stand in nobody's way, and count as missing. Heights are relative to the map's base, like the map's
+/// own; kNoHeight where a block holds no sample.
 struct HeightMips {
   struct Level {
     Image<float> mean;
     Image<float> highest;
   };
   std::vector<Level> levels;  ///< levels[l − 1] is level l
+  Image<float> occluders;     ///< level 0; empty where it is the map itself
+
+  const Image<float>& level_0(const Surface& surface) const {
+    return occluders.values.empty() ? surface.map.height : occluders;
+  }
 };
 
 /// Below everything, and finite, so that a weight of zero takes it away.

@@ -54,7 +54,7 @@ LightTable make_light_table(const Surface& surface, const WalkOptions& options, 
   const GridDirection g = grid_direction(surface, azimuth_rad(options, k));
   LightTable table;
   const int octave = per_octave(options);
-  const double farthest = walk.rings.empty() ? 2.0 * options.fineness : double{walk.rings.back().back().way};
+  const double farthest = walk.rings.empty() ? 4.0 * options.fineness : double{walk.rings.back().back().way};
   add_near_nodes(walk, near_way(options), table);
   add_far_nodes(g, octave, farthest, table);
   double before = 0;

@@ -89,11 +89,11 @@ void walk(const WalkTile& tile, const LinkAzimuth& azimuth, int i, int j, NodeWe
     walker.look(weighted - sample.per_distance * walker.z, sample.way, azimuth.light.near[k], weights);
   }
   for (std::size_t ring = 0; ring < azimuth.walk.rings.size(); ++ring) {
-    const int level = static_cast<int>(ring) + 1;
+    const HeightWindow& window = tile.windows[ring + 1];
     for (std::size_t k = 0; k < azimuth.walk.rings[ring].size(); ++k) {
       const RingSample& sample = azimuth.walk.rings[ring][k];
-      const float height = tile.windows[static_cast<std::size_t>(level)].at(
-          (row + sample.row) >> level, (column + sample.column) >> level);
+      const float height =
+          window.at((row + sample.row) >> window.level, (column + sample.column) >> window.level);
       walker.look((height - walker.z) * sample.per_distance, sample.way, azimuth.light.rings[ring][k],
                   weights);
     }

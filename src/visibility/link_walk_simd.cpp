@@ -63,17 +63,18 @@ class LinkLanes {
 
   void walk_ring(int ring) {
     const HeightWindow& window = tile_.windows[static_cast<std::size_t>(ring)];
+    const int level = window.level;
     const std::vector<RingSample>& samples = azimuth_.walk.rings[static_cast<std::size_t>(ring) - 1];
     const std::vector<NodeShare>& shares = azimuth_.light.rings[static_cast<std::size_t>(ring) - 1];
     for (std::size_t k = 0; k < samples.size(); ++k) {
       const RingSample& sample = samples[k];
       const int start = column_ + sample.column;
       const float* first = window.values.data() +
-                           std::ptrdiff_t{((row_ + sample.row) >> ring) - window.first_row} * window.width +
-                           ((start >> ring) - window.first_column);
-      const int phase = start & ((1 << ring) - 1);
+                           std::ptrdiff_t{((row_ + sample.row) >> level) - window.first_row} * window.width +
+                           ((start >> level) - window.first_column);
+      const int phase = start & ((1 << level) - 1);
       const auto order =
-          hn::IndicesFromVec(kF, hn::ShiftRightSame(hn::Add(hn::Set(kI, phase), hn::Iota(kI, 0)), ring));
+          hn::IndicesFromVec(kF, hn::ShiftRightSame(hn::Add(hn::Set(kI, phase), hn::Iota(kI, 0)), level));
       const VF height = hn::TableLookupLanes(hn::LoadU(kF, first), order);
       look(hn::Mul(hn::Sub(height, z_), hn::Set(kF, sample.per_distance)), sample.way, shares[k]);
     }
@@ -86,7 +87,7 @@ class LinkLanes {
   }
 
  private:
-  VF mass(VF m, VF q) const { return hn::NegMulAdd(n_z_, q, hn::Mul(c_, hn::MulAdd(m, q, arc_tangent(m)))); }
+  VF mass(VF m, VF q) const { return hn::NegMulAdd(n_z_, q, hn::Mul(c_, hn::MulAdd(m, q, arc_tangent(kF, m)))); }
 
   void look(VF s, float way, const NodeShare& share) {
     const auto rises = hn::Gt(s, hn::Add(slope_, hn::Set(kF, kLeastRise)));
@@ -200,8 +201,7 @@ void walk_links_lanes(const WalkTile& tile, const std::vector<LinkAzimuth>& azim
   std::vector<float> highest(azimuths.size() * rings);
   for (std::size_t k = 0; k < azimuths.size(); ++k) {
     for (std::size_t ring = 0; ring < rings; ++ring) {
-      highest[k * rings + ring] =
-          ring_highest(tile, azimuths[k].walk.rings[ring], static_cast<int>(ring) + 1);
+      highest[k * rings + ring] = ring_highest(tile, azimuths[k].walk, static_cast<int>(ring) + 1);
     }
   }
   BlockWeights weights;

@@ -34,7 +34,7 @@ ReachTable make_reach_table(const AzimuthTable& azimuth, const Reach& sphere) {
 int rings_within(const Surface& surface, const WalkOptions& options, double distance, int rings) {
   const double texels = distance / std::min(surface.map.spacing.x, surface.map.spacing.y);
   int needed = 0;
-  while (needed < rings && std::ldexp(options.fineness, needed + 1) < texels) ++needed;
+  while (needed < rings && std::ldexp(2 * options.fineness, needed + 1) < texels) ++needed;
   return needed;
 }
 

@@ -8,20 +8,19 @@
 
 // Skies of which only occluders within a reach D hide anything.
 //
-// A sharp reach has horizons again. A ray of elevation h > 0 passes below the surface at the horizontal
-// distance t where that stands under the slope s(t) ≥ tan h, and is t / cos h long there: no longer than D
-// iff tan h ≤ √(D² − t²)/t. What it hits within D is thus all that lies below
-//     max over t < D of min(s(t), √(D² − t²)/t).
-// Along a straight stretch of the profile the greatest minimum stands at its ends, or where the stretch
-// leaves the sphere of radius D around the receiver, which is where both are equal. (A horizon below the
-// horizontal is taken to hide everything under it, though rays that fall more steeply may be longer than D:
-// on slopes, and by little.)
-//
-// With a falloff, walking outward, every stretch that rises above what came before is seen between two slopes
-// m and m', and what the sky would send from there counts by μ at its distance:
+// Walking outward, every stretch of the profile that rises above what came before is seen between two slopes
+// m and m', and what the sky would send from there counts by the stretch's distance d:
 //     Σ μ(d) (S(m) − S(m')) + S(the last m).
-// The stretch is seen from where it passes the slope m on, and its distance is taken under the angle halfway
-// between m and m'.
+// A stretch is seen from where it passes the slope m on. With a falloff its distance is taken under the angle
+// halfway between m and m'. A sharp reach hides what lies inside the sphere of radius D around the receiver,
+// between the slopes of the places where the stretch enters and leaves it.
+//
+// A sharp reach has horizons of its own, too. A ray of elevation h > 0 passes below the surface at the
+// horizontal distance t where that stands under the slope s(t) ≥ tan h, and is t / cos h long there: no
+// longer than D iff tan h ≤ √(D² − t²)/t. What it hits within D is thus all that lies below
+//     max over t < D of min(s(t), √(D² − t²)/t),
+// which along a straight stretch stands at its ends, or where it leaves the sphere. (Below the horizontal
+// there may be gaps under it, where rays fall steeply and far.)
 
 namespace heightlight {
 
@@ -35,7 +34,7 @@ struct ReachTable {
   float deepest = 0;   ///< what lies deeper below a receiver than 10⁴ D is as good as missing
   Falloff falloff = Falloff::none;
   std::size_t near = 0;                  ///< near samples up to the first beyond D
-  std::vector<std::vector<float>> caps;  ///< √(D² − d²)/d of ring samples nearer than D: [l − 1][sample]
+  std::vector<std::vector<float>> caps;  ///< √(D² − d²)/d of ring samples nearer than D: [r − 1][sample]
 };
 
 /// Way from one sample to the next. Where an azimuth meets a vertex, two samples lie there.

@@ -52,13 +52,13 @@ constexpr float kSteep = 2.0F;
 /// Walks one azimuth from every receiver of the tile. The readable one.
 void walk_sky_scalar(const WalkTile& tile, const AzimuthTable& azimuth, const FarView& far, SkySums& sums);
 
-/// Likewise, with occluders only as far as a reach; slopes are kept for a sharp one only.
+/// Likewise, with occluders only as far as a reach. Where slopes are kept, a sharp one is taken, and the sky
+/// above its horizons.
 void walk_sky_within_scalar(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach,
                             SkySums& sums);
 
-/// The fast one: receivers side by side, rings left out where a bound shows that they raise no horizon. The
-/// same sums, but for the rounding of fused products where the machine has them, and of the arc tangent
-/// (2e-8).
+/// The fast ones: receivers side by side. The same sums, but for the rounding of fused products where the
+/// machine has them, and of the arc tangent (2e-8).
 void walk_sky(const WalkTile& tile, const AzimuthTable& azimuth, const FarView& far, SkySums& sums);
 void walk_sky_within(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach,
                      SkySums& sums);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "visibility/sky_walk.h"
 
@@ -19,11 +20,10 @@ float near_slope(const WalkTile& tile, const NearSample& sample, int i, int j) {
   return weighted - sample.per_distance * tile.height[static_cast<std::size_t>(i * WalkTile::kSide + j)];
 }
 
-float ring_slope(const WalkTile& tile, const RingSample& sample, int level, int i, int j) {
-  const int row = tile.first_row + i;
-  const int column = tile.first_column + j;
-  const float height = tile.windows[static_cast<std::size_t>(level)].at((row + sample.row) >> level,
-                                                                        (column + sample.column) >> level);
+float ring_slope(const WalkTile& tile, const RingSample& sample, int ring, int i, int j) {
+  const HeightWindow& window = tile.windows[static_cast<std::size_t>(ring)];
+  const float height = window.at((tile.first_row + i + sample.row) >> window.level,
+                                 (tile.first_column + j + sample.column) >> window.level);
   return (height - tile.height[static_cast<std::size_t>(i * WalkTile::kSide + j)]) * sample.per_distance;
 }
 
@@ -33,11 +33,6 @@ float horizon_slope(const WalkTile& tile, const AzimuthTable& azimuth, const Far
   const float z = tile.height[static_cast<std::size_t>(i * WalkTile::kSide + j)];
   float slope = tangent;
   for (const NearSample& sample : azimuth.near) slope = std::max(slope, near_slope(tile, sample, i, j));
-  if (!azimuth.rings.empty()) {
-    for (const RingSample& sample : azimuth.rings[0]) {
-      slope = std::max(slope, ring_slope(tile, sample, 1, i, j));
-    }
-  }
   constexpr int kSide = WalkTile::kGroup;
   const auto group = static_cast<std::size_t>(i / kSide * (WalkTile::kSide / kSide) + j / kSide);
   const float nearer = static_cast<float>(i % kSide - kSide / 2) * azimuth.along_row +
@@ -155,8 +150,27 @@ float share_of_stretch(const ProfilePoint& begin, const ProfilePoint& end, float
   return reach.falloff == Falloff::root ? std::sqrt(share) : share;
 }
 
-/// The slice of a receiver with a reach that falls off.
-SliceSums fading_slice(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach, int i,
+/// Of a sharp reach: the slopes between which a stretch lies inside its sphere, no less than m and no more
+/// than `seen`; equal where it lies outside. The line p + g t meets the sphere where (1 + g²) t² + 2 p g t +
+/// p² = D².
+std::pair<float, float> slopes_inside(const ProfilePoint& begin, const ProfilePoint& end, float m, float seen,
+                                      const ReachTable& reach) {
+  if (begin.way == 0) return end.squared() <= reach.squared ? std::pair{m, seen} : std::pair{m, m};
+  const float g = (end.rise - begin.rise) / run_between(begin.way, end.way);
+  const float p = begin.rise - g * begin.way;
+  const float u = 1 + g * g;
+  const float root = reach.squared * u - p * p;
+  if (root <= 0) return {m, m};
+  const float enters = (-std::sqrt(root) - p * g) / u;
+  const float leaves = (std::sqrt(root) - p * g) / u;
+  const float low = enters > begin.way ? p / enters + g : m;
+  const float high = leaves < end.way ? p / std::max(leaves, begin.way) + g : seen;
+  const float from = std::clamp(low, m, seen);
+  return {from, std::clamp(high, from, seen)};
+}
+
+/// The slice of a receiver with a reach.
+SliceSums slice_within(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach, int i,
                        int j, float c, float n_z, float tangent, const SkyWanted& wanted) {
   SliceSums open;
   float m = tangent;
@@ -165,7 +179,13 @@ SliceSums fading_slice(const WalkTile& tile, const AzimuthTable& azimuth, const 
   const auto see = [&](const ProfilePoint& from, const ProfilePoint& to, float seen) {
     if (!(seen > m)) return;
     const SliceSums next = integrate_slice(c, n_z, seen, wanted);
-    add(share_of_stretch(from, to, m, seen, reach), above - next, open);
+    if (reach.falloff == Falloff::none) {
+      const auto [low, high] = slopes_inside(from, to, m, seen, reach);
+      add(1, above - integrate_slice(c, n_z, low, wanted), open);
+      add(1, integrate_slice(c, n_z, high, wanted) - next, open);
+    } else {
+      add(share_of_stretch(from, to, m, seen, reach), above - next, open);
+    }
     above = next;
     m = seen;
   };
@@ -254,14 +274,14 @@ void walk_sky_scalar(const WalkTile& tile, const AzimuthTable& azimuth, const Fa
 
 void walk_sky_within_scalar(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach,
                             SkySums& sums) {
-  if (reach.falloff == Falloff::none) {
+  if (sums.keep_slope) {
     add_above(tile, azimuth, sums, [&](int i, int j, float tangent) {
       return horizon_slope_within(tile, azimuth, reach, i, j, tangent);
     });
     return;
   }
   for_receivers(tile, azimuth, sums, [&](int i, int j, float c, float n_z, float tangent) {
-    return fading_slice(tile, azimuth, reach, i, j, c, n_z, tangent, sums.wanted);
+    return slice_within(tile, azimuth, reach, i, j, c, n_z, tangent, sums.wanted);
   });
 }
 

@@ -122,7 +122,6 @@ void walk_sky_lanes(const WalkTile& tile, const AzimuthTable& azimuth, const Far
   add_above(tile, azimuth, sums, [&](const LaneWalk& walk, Bunch& bunch) HWY_ATTR {
     walk.look_near(bunch);
     walk.look_far(far, bunch);
-    walk.look_at_ring(bunch);
   });
 }
 
@@ -147,8 +146,38 @@ HWY_INLINE VF share_of_stretches(VF begin, float before, VF rise, float way, VF 
   return reach.falloff == Falloff::root ? hn::Sqrt(share) : share;
 }
 
-HWY_INLINE void walk_fading(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach,
-                            SkySums& sums) {
+/// Of a sharp reach: slopes_inside of sky_walk_scalar.cpp.
+struct SlopePair {
+  VF low, high;
+};
+HWY_INLINE SlopePair slopes_inside(VF begin, float before, VF rise, float way, VF m, VF seen,
+                                   const ReachTable& reach) {
+  const VF squared = hn::Set(kF, reach.squared);
+  if (before <= 0) {
+    const VF end = hn::MulAdd(rise, rise, hn::Set(kF, way * way));
+    return {m, hn::IfThenElse(hn::Le(end, squared), seen, m)};
+  }
+  const VF zero = hn::Zero(kF);
+  const VF first = hn::Set(kF, before);
+  const VF last = hn::Set(kF, way);
+  const VF g = hn::Mul(hn::Sub(rise, begin), hn::Set(kF, 1 / run_between(before, way)));
+  const VF p = hn::NegMulAdd(g, first, begin);
+  const VF u = hn::MulAdd(g, g, hn::Set(kF, 1.0F));
+  const VF root = hn::NegMulAdd(p, p, hn::Mul(squared, u));
+  const VF half = hn::Sqrt(hn::Max(root, zero));
+  const VF middle = hn::Mul(p, g);
+  const VF enters = hn::Div(hn::Neg(hn::Add(half, middle)), u);
+  const VF leaves = hn::Div(hn::Sub(half, middle), u);
+  const VF low = hn::IfThenElse(hn::Gt(enters, first), hn::Add(hn::Div(p, hn::Max(enters, first)), g), m);
+  const VF high = hn::IfThenElse(hn::Lt(leaves, last), hn::Add(hn::Div(p, hn::Max(leaves, first)), g), seen);
+  const VF from = hn::Min(hn::Max(low, m), seen);
+  const VF to = hn::Min(hn::Max(high, from), seen);
+  const auto meets = hn::Gt(root, zero);
+  return {hn::IfThenElse(meets, from, m), hn::IfThenElse(meets, to, m)};
+}
+
+HWY_INLINE void walk_chain(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach,
+                           SkySums& sums) {
   for_bunches(tile, azimuth, [&](const LaneWalk& walk, Bunch& bunch) HWY_ATTR {
     const VF zero = hn::Zero(kF);
     std::array<VF, kBunch> n_z, c;
@@ -164,8 +193,16 @@ HWY_INLINE void walk_fading(const WalkTile& tile, const AzimuthTable& azimuth, c
       if (hn::AllFalse(kF, hn::Gt(seen, m))) return;
       const VF higher = hn::Max(m, seen);  // where nothing rises, what is between both is nothing
       const SliceSums next = integrate_sums(c[v], n_z[v], higher, sums.wanted);
-      const VF share = share_of_stretches(begin, before, rise, way, m, higher, reach);
-      add_between(share, above[v], next, sums.wanted, open[v]);
+      if (reach.falloff != Falloff::none) {
+        const VF share = share_of_stretches(begin, before, rise, way, m, higher, reach);
+        add_between(share, above[v], next, sums.wanted, open[v]);
+      } else {
+        const SlopePair inside = slopes_inside(begin, before, rise, way, m, higher, reach);
+        const VF one = hn::Set(kF, 1.0F);
+        add_between(one, above[v], integrate_sums(c[v], n_z[v], inside.low, sums.wanted), sums.wanted,
+                    open[v]);
+        add_between(one, integrate_sums(c[v], n_z[v], inside.high, sums.wanted), next, sums.wanted, open[v]);
+      }
       above[v] = next;
       bunch.slope[v] = higher;
     };
@@ -180,7 +217,7 @@ HWY_INLINE void walk_fading(const WalkTile& tile, const AzimuthTable& azimuth, c
 
 void walk_sky_within_lanes(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach,
                            SkySums& sums) {
-  if (reach.falloff != Falloff::none) return walk_fading(tile, azimuth, reach, sums);
+  if (!sums.keep_slope) return walk_chain(tile, azimuth, reach, sums);
   add_above(tile, azimuth, sums, [&](const LaneWalk& walk, Bunch& bunch) HWY_ATTR {
     walk.look_near_within(reach, bunch);
     walk.look_at_rings_within(reach, bunch);

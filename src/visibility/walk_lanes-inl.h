@@ -12,6 +12,7 @@
 #include <array>
 #include <numbers>
 
+#include "core/arc_tangent-inl.h"
 #include "visibility/far_view.h"
 #include "visibility/sky_walk.h"
 
@@ -43,31 +44,11 @@ struct Slice {
   VF sky, solid;
 };
 
-/// atan x for |x| ≤ 1, to 2e-8 (Abramowitz and Stegun 4.4.49).
-HWY_INLINE VF atan_unit(VF x) {
-  constexpr std::array<float, 9> kTerms{1.0F,           -0.3333314528F, 0.1999355085F,
-                                        -0.1420889944F, 0.1065626393F,  -0.0752896400F,
-                                        0.0429096138F,  -0.0161657367F, 0.0028662257F};
-  const VF square = hn::Mul(x, x);
-  VF sum = hn::Set(kF, kTerms[8]);
-  for (std::size_t i = 8; i-- > 0;) sum = hn::MulAdd(sum, square, hn::Set(kF, kTerms[i]));
-  return hn::Mul(sum, x);
-}
-
-/// atan x for any x.
-HWY_INLINE VF arc_tangent(VF x) {
-  const VF one = hn::Set(kF, 1.0F);
-  const VF half_pi = hn::Set(kF, std::numbers::pi_v<float> / 2);
-  const VF size = hn::Abs(x);
-  const VF angle = atan_unit(hn::Div(hn::Min(size, one), hn::Max(size, one)));
-  return hn::CopySign(hn::IfThenElse(hn::Gt(size, one), hn::Sub(half_pi, angle), angle), x);
-}
-
 HWY_INLINE Slice integrate_slice(VF c, VF n_z, VF m) {
   const VF one = hn::Set(kF, 1.0F);
   const VF half_pi = hn::Set(kF, std::numbers::pi_v<float> / 2);
   const VF q = hn::Div(one, hn::MulAdd(m, m, one));
-  const VF zenith = hn::NegMulAdd(m, q, hn::Sub(half_pi, arc_tangent(m)));
+  const VF zenith = hn::NegMulAdd(m, q, hn::Sub(half_pi, arc_tangent(kF, m)));
   return {hn::MulAdd(c, zenith, hn::Mul(n_z, q)), hn::NegMulAdd(m, hn::Sqrt(q), one)};
 }
 
@@ -98,7 +79,7 @@ HWY_INLINE SecondMoments integrate_second(VF c, VF n_z, VF m) {
   const VF two = hn::Set(kF, 2.0F);
   const VF half_pi = hn::Set(kF, std::numbers::pi_v<float> / 2);
   const VF q = hn::Div(one, hn::MulAdd(m, m, one));
-  const VF zenith = hn::NegMulAdd(m, q, hn::Sub(half_pi, arc_tangent(m)));
+  const VF zenith = hn::NegMulAdd(m, q, hn::Sub(half_pi, arc_tangent(kF, m)));
   const VF fourth = hn::Mul(hn::Set(kF, 0.25F), hn::Mul(q, q));
   const VF tilted = hn::Mul(m, fourth);
   const VF along = hn::MulSub(hn::Set(kF, 0.375F), zenith, tilted);
@@ -109,9 +90,7 @@ HWY_INLINE SecondMoments integrate_second(VF c, VF n_z, VF m) {
 
 class LaneWalk {
  public:
-  LaneWalk(const WalkTile& tile, const AzimuthTable& azimuth) : tile_(tile), azimuth_(azimuth) {
-    if (!azimuth.rings.empty()) ring_highest_ = ring_highest(tile, azimuth.rings[0], 1);
-  }
+  LaneWalk(const WalkTile& tile, const AzimuthTable& azimuth) : tile_(tile), azimuth_(azimuth) {}
 
   Bunch begin(int row, int column) const {
     Bunch bunch;
@@ -191,13 +170,6 @@ class LaneWalk {
     });
   }
 
-  /// Ring 1, unless it is too low to be seen.
-  void look_at_ring(Bunch& bunch) const {
-    if (azimuth_.rings.empty()) return;
-    const std::vector<RingSample>& samples = azimuth_.rings[0];
-    if (may_rise(bunch, ring_highest_, samples.front().per_distance)) look_at_blocks(bunch, samples);
-  }
-
   /// The lines that the groups of the bunch keep.
   void look_far(const FarView& far, Bunch& bunch) const {
     constexpr int kSide = WalkTile::kGroup;
@@ -224,18 +196,6 @@ class LaneWalk {
   }
 
  private:
-  /// Could a height of at most `highest`, no nearer than 1 / `per_distance`, raise any of the horizons? What
-  /// is below a receiver is seen least steeply from afar, under a slope of less than 0.
-  bool may_rise(const Bunch& bunch, float highest, float per_distance) const {
-    const VF top = hn::Set(kF, highest);
-    const VF nearest = hn::Set(kF, per_distance);
-    for (std::size_t v = 0; v < kBunch; ++v) {
-      const VF steepest = hn::Mul(hn::Max(hn::Sub(top, bunch.height[v]), hn::Zero(kF)), nearest);
-      if (!hn::AllFalse(kF, hn::Gt(steepest, bunch.slope[v]))) return true;
-    }
-    return false;
-  }
-
   static void raise(Bunch& bunch, std::size_t v, VF height, VF per_distance) {
     bunch.slope[v] = hn::Max(bunch.slope[v], hn::Mul(hn::Sub(height, bunch.height[v]), per_distance));
   }
@@ -277,35 +237,13 @@ class LaneWalk {
     return hn::IfThenElse(meets, hn::Add(hn::Div(p, at), g), hn::Set(kF, kNoHeight));
   }
 
-  /// Each receiver looks at its own block: neighbours in a vector share some, which is a permutation of a
-  /// load.
-  void look_at_blocks(Bunch& bunch, const std::vector<RingSample>& samples) const {
-    const HeightWindow& window = tile_.windows[1];
-    const int row = tile_.first_row + bunch.row;
-    const int column = tile_.first_column + bunch.column;
-    const VI even = hn::ShiftRight<1>(hn::Iota(kI, 0));
-    const VI odd = hn::ShiftRight<1>(hn::Iota(kI, 1));
-    for (const RingSample& sample : samples) {
-      const float* line = window.values.data() +
-                          std::ptrdiff_t{((row + sample.row) >> 1) - window.first_row} * window.width -
-                          window.first_column;
-      const int start = column + sample.column;
-      const VI pairs = (start & 1) != 0 ? odd : even;
-      const auto order = hn::IndicesFromVec(kF, pairs);
-      const VF per_distance = hn::Set(kF, sample.per_distance);
-      for (std::size_t v = 0; v < kBunch; ++v) {
-        const int first = (start + static_cast<int>(v * hn::Lanes(kF))) >> 1;
-        raise(bunch, v, hn::TableLookupLanes(hn::LoadU(kF, line + first), order), per_distance);
-      }
-    }
-  }
-
-  /// Calls see(sample, cap, v, slope) for the ring samples within a reach and each vector of the bunch.
+  /// Calls see(sample, cap, v, slope) for the ring samples within a reach and each vector of the bunch. Each
+  /// receiver looks at its own block: neighbours in a vector share some, which is a permutation of a load.
   template <class See>
   HWY_INLINE void for_ring_samples(const Bunch& bunch, const ReachTable& reach, See&& see) const {
     for (std::size_t ring = 0; ring < reach.caps.size(); ++ring) {
-      const int level = static_cast<int>(ring) + 1;
       const HeightWindow& window = tile_.windows[ring + 1];
+      const int level = window.level;
       for (std::size_t k = 0; k < reach.caps[ring].size(); ++k) {
         const RingSample& sample = azimuth_.rings[ring][k];
         const int row = (tile_.first_row + bunch.row + sample.row) >> level;
@@ -326,7 +264,6 @@ class LaneWalk {
 
   const WalkTile& tile_;
   const AzimuthTable& azimuth_;
-  float ring_highest_ = kNoHeight;
 };
 
 }  // namespace heightlight::HWY_NAMESPACE

@@ -54,31 +54,34 @@ NearSample at_diagonal(const GridDirection& g, double t, int i) {
 }
 
 /// Crossings with the lines i = ±1, ±2 … of one family, which `rate` of them a texel of way meets, in (from,
-/// to].
+/// to]: every `step`-th.
 template <class At>
-void add_crossings(double rate, double from, double to, std::vector<Crossing>& crossings, At&& at) {
+void add_crossings(double rate, double from, double to, int step, std::vector<Crossing>& crossings, At&& at) {
   if (std::fabs(rate) < 1e-9) return;
   const int sign = rate > 0 ? 1 : -1;
-  for (int i = 1; i / std::fabs(rate) <= to; ++i) {
+  for (int i = static_cast<int>(from * std::fabs(rate)) + 1; i / std::fabs(rate) <= to; i += step) {
     const double t = i / std::fabs(rate);
     if (t > from) crossings.push_back({t, at(t, sign * i)});
   }
 }
 
 std::vector<NearSample> near_samples(const GridDirection& g, int fineness) {
-  const double exact = fineness / 4.0;
-  const double reach = 2.0 * fineness;
+  const double exact = fineness / 2.0;
+  const double dense = 2.0 * fineness;
+  const double reach = 4.0 * fineness;
   std::vector<Crossing> crossings;
   const auto column = [&](double t, int i) { return at_column(g, t, i); };
   const auto row = [&](double t, int i) { return at_row(g, t, i); };
   const auto diagonal = [&](double t, int i) { return at_diagonal(g, t, i); };
-  add_crossings(g.u, 0, exact, crossings, column);
-  add_crossings(g.v, 0, exact, crossings, row);
-  add_crossings(g.u - g.v, 0, exact, crossings, diagonal);
+  add_crossings(g.u, 0, exact, 1, crossings, column);
+  add_crossings(g.v, 0, exact, 1, crossings, row);
+  add_crossings(g.u - g.v, 0, exact, 1, crossings, diagonal);
   if (std::fabs(g.u) >= std::fabs(g.v)) {
-    add_crossings(g.u, exact, reach, crossings, column);
+    add_crossings(g.u, exact, dense, 1, crossings, column);
+    add_crossings(g.u, dense, reach, 2, crossings, column);
   } else {
-    add_crossings(g.v, exact, reach, crossings, row);
+    add_crossings(g.v, exact, dense, 1, crossings, row);
+    add_crossings(g.v, dense, reach, 2, crossings, row);
   }
   std::stable_sort(crossings.begin(), crossings.end(),
                    [](const Crossing& a, const Crossing& b) { return a.t < b.t; });
@@ -87,10 +90,10 @@ std::vector<NearSample> near_samples(const GridDirection& g, int fineness) {
   return samples;
 }
 
-std::vector<RingSample> ring_samples(const GridDirection& g, int fineness, int level) {
+std::vector<RingSample> ring_samples(const GridDirection& g, int fineness, int ring) {
   std::vector<RingSample> samples;
   for (int i = 0; i < fineness; ++i) {
-    const double t = std::ldexp(fineness + i + 0.5, level);
+    const double t = std::ldexp(fineness + i + 0.5, ring_level(ring));
     samples.push_back({static_cast<float>(t), static_cast<int>(std::lround(t * g.v)),
                        static_cast<int>(std::lround(t * g.u)), static_cast<float>(1 / (t * g.length))});
   }
@@ -119,7 +122,7 @@ void check_azimuths(int azimuths) {
 
 int near_window_width(const WalkOptions& options) { return kTileSide + 2 + 2 * near_reach(options); }
 
-int near_reach(const WalkOptions& options) { return 2 * options.fineness + 1; }
+int near_reach(const WalkOptions& options) { return 4 * options.fineness + 1; }
 
 int ring_count(const Surface& surface, const WalkOptions& options) {
   constexpr double kLeastSlope = 0.004;
@@ -129,7 +132,7 @@ int ring_count(const Surface& surface, const WalkOptions& options) {
   const double rows = surface.height();
   const double farthest = surface.tiles() ? 4 * std::max(columns, rows) : std::hypot(columns, rows);
   int rings = 0;
-  for (double t = 2.0 * options.fineness; t < farthest && relief > kLeastSlope * t * finest; t *= 2) ++rings;
+  for (double t = 4.0 * options.fineness; t < farthest && relief > kLeastSlope * t * finest; t *= 2) ++rings;
   return rings;
 }
 
@@ -146,9 +149,7 @@ AzimuthTable make_azimuth_table(const Surface& surface, const WalkOptions& optio
       sample.offset[s] = sample.row[s] * near_window_width(options) + sample.column[s];
   }
   const int rings = ring_count(surface, options);
-  for (int level = 1; level <= rings; ++level) {
-    table.rings.push_back(ring_samples(g, options.fineness, level));
-  }
+  for (int ring = 1; ring <= rings; ++ring) table.rings.push_back(ring_samples(g, options.fineness, ring));
   return table;
 }
 

@@ -11,11 +11,11 @@
 // From the receiver, t texels of way along the unit grid direction (g_u, g_v) are the world distance t ℓ.
 // What is seen at height v above the receiver's z stands under the slope (v − z) / (t ℓ).
 //
-//   * Up to t = ν/4, at every breakpoint of the profile: the crossings with rows, columns and diagonals.
+//   * Up to t = ν/2, at every breakpoint of the profile: the crossings with rows, columns and diagonals.
 //   * Up to t = 2ν, at the crossings with the rows or the columns, whichever the azimuth meets more squarely,
-//     interpolated between the two samples beside them.
-//   * Ring l ≥ 1, t from ν 2^l to ν 2^(l+1): ν samples, 2^l apart, of the block of level l that each falls
-//   into.
+//     interpolated between the two samples beside them; up to 4ν, at every other of these.
+//   * Ring r ≥ 1, t from 2ν 2^r to 4ν 2^r: ν samples, 2^(r+1) apart, of the block of level r + 1 that each
+//     falls into.
 //
 // ν is the walk's fineness; its cost grows like ν log(N / ν).
 
@@ -62,11 +62,14 @@ struct AzimuthTable {
       1;  ///< world distance gained along the azimuth by moving one column to the right: g_u ℓ
   float along_row = 0;                         ///< and one row down: g_v ℓ
   std::vector<NearSample> near;                ///< by rising way
-  std::vector<std::vector<RingSample>> rings;  ///< rings[l − 1] is ring l
+  std::vector<std::vector<RingSample>> rings;  ///< rings[r − 1] is ring r
 };
 
 /// Samples in a row of the window that near samples are read from: `offset` above counts in it.
 int near_window_width(const WalkOptions& options);
+
+/// Level of the blocks that a ring looks at, 2^level texels a side.
+constexpr int ring_level(int ring) { return ring + 1; }
 
 /// Texels beside a tile that its near samples reach.
 int near_reach(const WalkOptions& options);
@@ -75,7 +78,7 @@ int near_reach(const WalkOptions& options);
 /// of more than 0.004, at most to four times the map's size, and for `open` maps to the far corner.
 AzimuthTable make_azimuth_table(const Surface& surface, const WalkOptions& options, double azimuth_rad);
 
-/// Levels that the rings of any azimuth use.
+/// Rings of any azimuth.
 int ring_count(const Surface& surface, const WalkOptions& options);
 
 }  // namespace heightlight

@@ -58,14 +58,45 @@ void place(HeightWindow& window, int level, int reach, int row, int column) {
   window.values.resize(static_cast<std::size_t>(across) * static_cast<std::size_t>(across) + kReadPadding);
 }
 
+/// Columns of the map that follow each other in a window, or columns where nothing is (map_column < 0).
+struct ColumnRun {
+  int map_column;
+  int count;
+};
+
+std::vector<ColumnRun> column_runs(const std::vector<int>& columns) {
+  std::vector<ColumnRun> runs;
+  for (const int column : columns) {
+    const bool goes_on =
+        !runs.empty() &&
+        (column < 0 ? runs.back().map_column < 0
+                    : runs.back().map_column >= 0 && column == runs.back().map_column + runs.back().count);
+    if (goes_on) {
+      ++runs.back().count;
+    } else {
+      runs.push_back({column, 1});
+    }
+  }
+  return runs;
+}
+
+void copy_heights(const float* heights, int count, float reference, float* out) {
+  for (int i = 0; i < count; ++i) out[i] = std::isnan(heights[i]) ? kNoHeight : heights[i] - reference;
+}
+
 void fill_nearest(HeightWindow& window, const Image<float>& heights, bool tiles, float reference) {
   const std::vector<int> rows = block_sources(window.first_row, window.height, 0, heights.height, tiles);
-  const std::vector<int> columns = block_sources(window.first_column, window.width, 0, heights.width, tiles);
+  const std::vector<ColumnRun> runs =
+      column_runs(block_sources(window.first_column, window.width, 0, heights.width, tiles));
   float* out = window.values.data();
   for (const int row : rows) {
-    for (const int column : columns) {
-      const float height = row < 0 || column < 0 ? kNoHeight : heights(row, column);
-      *out++ = std::isnan(height) || height == kNoHeight ? kNoHeight : height - reference;
+    for (const ColumnRun& run : runs) {
+      if (row < 0 || run.map_column < 0) {
+        std::fill_n(out, run.count, kNoHeight);
+      } else {
+        copy_heights(&heights(row, run.map_column), run.count, reference, out);
+      }
+      out += run.count;
     }
   }
 }
@@ -136,28 +167,25 @@ void WalkTile::load(const Surface& surface, const HeightMips& mips, const WalkOp
   groups = span_groups(*this, kGroup);
   wide_groups = span_groups(*this, kWideGroup);
   windows.resize(static_cast<std::size_t>(rings) + 1);
-  for (int level = 0; level <= rings; ++level) {
-    HeightWindow& window = windows[static_cast<std::size_t>(level)];
-    if (level == 0) {
-      place(window, 0, near_reach(options), row, column);
-      fill_nearest(window, map, surface.tiles(), reference);
-    } else {
-      place(window, level, 2 * options.fineness + 1, row, column);
-      fill_blocks(window, mips, surface, options.peak_share, reference);
-      bound_values(window);
-    }
+  place(windows[0], 0, near_reach(options), row, column);
+  fill_nearest(windows[0], mips.level_0(surface), surface.tiles(), reference);
+  for (int ring = 1; ring <= rings; ++ring) {
+    HeightWindow& window = windows[static_cast<std::size_t>(ring)];
+    place(window, ring_level(ring), 2 * options.fineness + 1, row, column);
+    fill_blocks(window, mips, surface, options.peak_share, reference);
+    bound_values(window);
   }
 }
 
-float ring_highest(const WalkTile& tile, const std::vector<RingSample>& ring, int level) {
-  const HeightWindow& window = tile.windows[static_cast<std::size_t>(level)];
+float ring_highest(const WalkTile& tile, const AzimuthTable& azimuth, int ring) {
+  const HeightWindow& window = tile.windows[static_cast<std::size_t>(ring)];
   const int wide = window.coarse_width();
-  const auto block = [level](int first, int last, int offset, int origin) {
+  const auto block = [level = window.level](int first, int last, int offset, int origin) {
     return std::pair{(((first + offset) >> level) - origin) / kCoarse,
                      (((last + offset) >> level) - origin) / kCoarse};
   };
   float highest = kNoHeight;
-  for (const RingSample& sample : ring) {
+  for (const RingSample& sample : azimuth.rings[static_cast<std::size_t>(ring) - 1]) {
     const auto [top, bottom] =
         block(tile.first_row, tile.first_row + WalkTile::kSide - 1, sample.row, window.first_row);
     const auto [left, right] =

@@ -85,15 +85,15 @@ struct WalkTile : TileFrame {
   ReceiverGroups groups;       ///< of kGroup a side
   ReceiverGroups wide_groups;  ///< of kWideGroup a side
 
-  std::vector<HeightWindow> windows;  ///< [l] of level l, 0 … number of rings
+  std::vector<HeightWindow> windows;  ///< [0] of the samples themselves; [r] of ring r's blocks
 
   /// Copies everything that `rings` rings of walks with these options may read. Reuses its memory.
   void load(const Surface& surface, const HeightMips& mips, const WalkOptions& options, int rings,
             const TileFrame& frame);
 };
 
-/// Upper bound of the heights, above the tile's reference, that ring l of an azimuth meets from anywhere in a
+/// Upper bound of the heights, above the tile's reference, that ring r of an azimuth meets from anywhere in a
 /// tile.
-float ring_highest(const WalkTile& tile, const std::vector<RingSample>& ring, int level);
+float ring_highest(const WalkTile& tile, const AzimuthTable& azimuth, int ring);
 
 }  // namespace heightlight

@@ -26,17 +26,22 @@ const std::map<std::string, Names> kMayInclude = {
     {"curves", {"core", "io", "heightmap", "surface", "visibility", "transport"}},
     {"models", {"core", "heightmap", "surface", "transport", "curves"}},
     {"screenspace", {"core", "heightmap", "surface"}},
+    {"comparison",
+     {"core", "io", "heightmap", "surface", "visibility", "transport", "curves", "models", "screenspace"}},
     {"bake", {"core", "io", "heightmap", "surface", "visibility", "transport", "models"}},
-    {"plot", {"core", "io", "heightmap", "surface", "visibility", "transport", "curves", "models"}},
+    {"plot",
+     {"core", "io", "heightmap", "surface", "visibility", "transport", "curves", "models", "comparison"}},
     {"cli",
      {"core", "io", "heightmap", "surface", "visibility", "transport", "curves", "models", "screenspace",
-      "bake", "plot"}},
+      "comparison", "bake", "plot"}},
 };
 
 const std::map<std::string, std::string> kLayerOfPublicHeader = {
-    {"error.h", "core"},          {"image.h", "core"},      {"heightmap.h", "heightmap"},
-    {"synth.h", "heightmap"},     {"surface.h", "surface"}, {"visibility.h", "visibility"},
-    {"transport.h", "transport"}, {"curves.h", "curves"},   {"models.h", "models"},
+    {"error.h", "core"},          {"image.h", "core"},
+    {"heightmap.h", "heightmap"}, {"synth.h", "heightmap"},
+    {"surface.h", "surface"},     {"visibility.h", "visibility"},
+    {"transport.h", "transport"}, {"curves.h", "curves"},
+    {"models.h", "models"},       {"screenspace.h", "screenspace"},
     {"bake.h", "bake"},
 };
 

@@ -19,13 +19,13 @@ namespace heightlight {
 namespace {
 
 /// All sums of a walk over the map, one behind the other.
-std::vector<float> sums_of(const Surface& surface, const WalkOptions& options,
+std::vector<float> sums_of(const Surface& surface, const WalkOptions& options, bool keep_slope,
                            const std::function<void(const WalkTile&, const AzimuthTable&, SkySums&)>& walk) {
   std::vector<float> result;
   for_tiles(surface, options, [&](const WalkTile& tile) {
     const auto sums = std::make_unique<SkySums>();
     sums->wanted = {true, true};
-    sums->keep_slope = true;
+    sums->keep_slope = keep_slope;
     std::vector<const SkySums::Values*> all{&sums->sky, &sums->full, &sums->solid, &sums->slope};
     for (const SkySums::Values& values : sums->first) all.push_back(&values);
     for (const SkySums::Values& values : sums->second) all.push_back(&values);
@@ -68,11 +68,12 @@ TEST_CASE("moments: the sky walk's lanes and its scalar twin agree on every inst
   const WalkOptions options{6, 8, 0.3F};
   const Surface surface = test_surface(kind, boundary);
   const auto run = [&](LookFar look, WalkSky walk) {
-    return sums_of(surface, options, [=](const WalkTile& tile, const AzimuthTable& azimuth, SkySums& sums) {
-      const auto far = std::make_unique<FarView>();
-      look(tile, azimuth, *far);
-      walk(tile, azimuth, *far, sums);
-    });
+    return sums_of(surface, options, true,
+                   [=](const WalkTile& tile, const AzimuthTable& azimuth, SkySums& sums) {
+                     const auto far = std::make_unique<FarView>();
+                     look(tile, azimuth, *far);
+                     walk(tile, azimuth, *far, sums);
+                   });
   };
   const std::vector<float> twin = run(look_far_scalar, walk_sky_scalar);
   for (const std::int64_t target : instruction_sets()) {
@@ -89,12 +90,14 @@ TEST_CASE("reach: the sky walk's lanes and its scalar twin agree on every instru
   const Boundary boundary = GENERATE(Boundary::tile, Boundary::open);
   const double distance = GENERATE(0.005, 0.06, 0.4, 2.0);
   const Falloff falloff = GENERATE(Falloff::none, Falloff::linear, Falloff::root);
+  const bool keep_slope = falloff == Falloff::none && GENERATE(false, true);
   const WalkOptions options{6, 8, 0.3F};
   const Surface surface = test_surface(kind, boundary);
   const auto run = [&](auto walk) {
-    return sums_of(surface, options, [&](const WalkTile& tile, const AzimuthTable& azimuth, SkySums& sums) {
-      walk(tile, azimuth, make_reach_table(azimuth, {distance, falloff}), sums);
-    });
+    return sums_of(surface, options, keep_slope,
+                   [&](const WalkTile& tile, const AzimuthTable& azimuth, SkySums& sums) {
+                     walk(tile, azimuth, make_reach_table(azimuth, {distance, falloff}), sums);
+                   });
   };
   const std::vector<float> twin = run(walk_sky_within_scalar);
   for (const std::int64_t target : instruction_sets()) {

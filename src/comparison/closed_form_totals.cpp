@@ -1,0 +1,48 @@
+#include "comparison/closed_form_totals.h"
+
+#include <cmath>
+#include <limits>
+
+#include "core/parallel.h"
+
+namespace heightlight {
+namespace {
+
+bool has(const Map& map) { return map.size() > 0; }
+
+}  // namespace
+
+bool can_evaluate(const ClosedForm& form, const Estimate& estimate) {
+  if (form.extra == ExtraInput::seen && !has(estimate.seen)) return false;
+  if (form.extra != ExtraInput::none && !has(estimate.sky_view_factor)) return false;
+  return has(form.kind == AoKind::ambient_occlusion ? estimate.ambient_occlusion : estimate.sky_view_factor);
+}
+
+Map evaluate_closed_form(const ClosedForm& form, const Estimate& estimate, const Surface& surface,
+                         const ComparedAlbedo& albedo) {
+  const Map& occlusion =
+      form.kind == AoKind::ambient_occlusion ? estimate.ambient_occlusion : estimate.sky_view_factor;
+  Map blurred;
+  if (form.extra == ExtraInput::blurred) blurred = blur_seen(estimate.sky_view_factor, surface.tiles());
+  SeenSkyViewFactor<double> expected{0};
+  if (form.extra == ExtraInput::expected_seen) expected = expected_seen(estimate.sky_view_factor, surface);
+  Map total(surface.width(), surface.height());
+  parallel_for(total.height, [&](std::int64_t row) {
+    for (std::int64_t i = row * total.width; i < (row + 1) * total.width; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      const double value = double{occlusion.values[at]};
+      ModelInputs inputs;
+      inputs.ambient_occlusion = AmbientOcclusion<double>(value);
+      inputs.sky_view_factor = SkyViewFactor<double>(value);
+      inputs.expected_seen = expected;
+      if (has(blurred)) inputs.blurred = SeenSkyViewFactor<double>(double{blurred.values[at]});
+      if (has(estimate.seen)) inputs.seen = SeenSkyViewFactor<double>(double{estimate.seen.values[at]});
+      const std::optional<double> found =
+          std::isnan(value) ? std::nullopt : form.evaluate(inputs, albedo.reflectance[i]);
+      total.values[at] = found ? static_cast<float>(*found) : std::numeric_limits<float>::quiet_NaN();
+    }
+  });
+  return total;
+}
+
+}  // namespace heightlight

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "comparison/stopwatch.h"
+#include "heightlight/transport.h"
+
+namespace heightlight {
+
+/// An albedo that totals are compared at.
+struct ComparedAlbedo {
+  std::string label;        ///< "0.5"; a channel's name where it varies
+  TexelVector reflectance;  ///< per texel, in [0, 1]
+  Map varying;              ///< the same as a map; 0 × 0 where it is the same everywhere
+
+  bool constant() const { return varying.size() == 0; }
+};
+
+struct ReferenceOptions {
+  int azimuths = 128;  ///< of the exact walk that every texel makes
+  std::vector<ComparedAlbedo> albedos;
+  std::uint64_t memory_limit = ~0ULL;  ///< bytes for the totals' links
+  std::uint64_t seed = 1;
+  bool quiet = true;
+};
+
+/// What methods are compared with, and what it errs by itself.
+struct Reference {
+  int azimuths = 0;
+  Map ambient_occlusion;  ///< α, by exact walks
+  Map sky_view_factor;    ///< A, likewise
+  Image<Eigen::Vector3f> bent_normal;
+  Map half_sky;             ///< E/π under a sky that shines only from y > 0, by exact walks
+  std::vector<Map> totals;  ///< E/π per albedo, by planned horizon walks
+  Cost cost;                ///< of the exact walks
+  Cost total_cost;
+
+  int checked = 0;           ///< receivers that the following was found on
+  double sky_rmse = 0;       ///< of A, against exact walks along kCheckAzimuths azimuths
+  double bent_rmse_deg = 0;  ///< of the bent normal, likewise
+  double ray_rmse = 0;       ///< of A, against kCheckRays rays, which share no code with the walks; their own
+                             ///< error is in it
+  std::vector<double> total_rmse;  ///< per albedo, against exact gathers (HorizonCheck)
+};
+
+constexpr int kCheckAzimuths = 1024;
+constexpr int kCheckRays = 65536;
+
+Reference build_reference(const Surface& surface, const ReferenceOptions& options);
+
+}  // namespace heightlight

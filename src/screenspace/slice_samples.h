@@ -1,0 +1,78 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "heightlight/screenspace.h"
+
+// Where the receivers of a slice-based method look. Seen from any texel the places are the same, but for the
+// noise, which repeats every four texels: sixteen tables at most serve a whole map.
+//
+// Slice s of S stands at the azimuth φ = π (s + f)/S, counterclockwise from x. Without noise f = ¼: a feature
+// that an axis mirrors is then not seen twice at the same angle. The spatial noise turns the texel of rank r
+// in its 4 × 4 square by f = (r + ¼)/16: the square has 16 S equidistant slices. Frame m of six turns it by f
+// = (r + (m + ¼)/6)/16: 96 S equidistant slices in all. (Six turns by multiples of 60° would not do: modulo
+// the 1/16 of the spatial noise they are only three.)
+
+namespace heightlight {
+
+/// Receivers that a kernel may walk at once: buffers are padded for as many.
+constexpr int kMostReceivers = 32;
+
+constexpr int kNoiseSide = 4;
+constexpr int kNoiseRanks = kNoiseSide * kNoiseSide;
+constexpr int kFrames = 6;
+
+/// Rank of a texel's direction in its 4 × 4 square; every square of 4 × 4 texels, wherever it lies, holds
+/// all.
+constexpr int noise_rank(int row, int column) {
+  return (row + column) % kNoiseSide * kNoiseSide + column % kNoiseSide;
+}
+
+/// A texel to look at: rows and columns from the receiver's, around the torus, so that none is negative; and
+/// its weight in the height of the sample, over the sample's distance.
+struct DepthTap {
+  int row = 0;
+  int column = 0;
+  float weight = 0;
+};
+
+struct SliceSample {
+  std::array<DepthTap, 3> taps;  ///< the first SliceTables::taps of them
+  float distance = 0;            ///< from the receiver, horizontally
+};
+
+struct Slice {
+  float x = 1;  ///< world direction of side 1; side 0 looks the other way
+  float y = 0;
+  std::array<std::vector<SliceSample>, 2> sides;  ///< by rising distance
+};
+
+struct SliceTables {
+  int taps = 1;                        ///< texels per sample: 1, or 3 on the mesh
+  std::vector<std::vector<Slice>> of;  ///< one table, or kNoiseRanks of them
+
+  const std::vector<Slice>& table(int row, int phase) const {
+    return of[of.size() == 1 ? 0 : static_cast<std::size_t>(noise_rank(row, phase))];
+  }
+};
+
+/// What slice-based methods have in common.
+struct SliceOptions {
+  int slices = 1;
+  int steps = 1;
+  StepDistribution distribution = StepDistribution::quadratic;
+  DepthSampling sampling = DepthSampling::nearest;
+  DirectionNoise noise = DirectionNoise::none;
+  double reach = 0;
+};
+
+/// Throws UsageError naming `method` and what is out of its range.
+void check_slice_options(const char* method, const SliceOptions& options);
+
+int frame_count(DirectionNoise noise);
+
+/// The tables of one frame, 0 … frame_count − 1.
+SliceTables make_slice_tables(const DepthBuffer& depth, const SliceOptions& options, int frame);
+
+}  // namespace heightlight

@@ -1,0 +1,99 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "command.h"
+#include "heightlight/image.h"
+#include "io/image_file.h"
+
+namespace heightlight {
+namespace {
+
+std::vector<std::vector<std::string>> read_table(const std::filesystem::path& path) {
+  std::vector<std::vector<std::string>> table;
+  std::istringstream lines(read_text(path));
+  for (std::string line; std::getline(lines, line);) {
+    std::vector<std::string>& fields = table.emplace_back();
+    std::istringstream cells(line + ",");
+    for (std::string cell; std::getline(cells, cell, ',');) fields.push_back(cell);
+  }
+  return table;
+}
+
+TEST_CASE("compare writes its table, report, plots and pictures, and errors that do not depend on threads",
+          "[cli][compare][slow]") {
+  const ScratchFolder folder;
+  REQUIRE(run_command("synth cobbles -o map.png --size 32", folder).exit_code == 0);
+  const CommandResult one = run_command("compare map.png -o one --albedo 0.3,0.8,0.8 --threads 1", folder);
+  INFO(one.error);
+  REQUIRE(one.exit_code == 0);
+  REQUIRE(run_command("compare map.png -o two --albedo 0.3,0.8,0.8 --threads 2 --quiet", folder).exit_code ==
+          0);
+  for (const char* name : {"compare.csv", "report.md", "pareto.svg", "pareto.png", "errors.png"}) {
+    CHECK(std::filesystem::file_size(folder / (std::string("one/") + name)) > 500);
+  }
+  const auto pictures = std::filesystem::directory_iterator(folder / "one");
+  CHECK(std::count_if(begin(pictures), end(pictures), [](const auto& entry) {
+          return entry.path().filename().string().starts_with("error_");
+        }) >= 8);
+  std::vector<std::vector<std::string>> table = read_table(folder / "one/compare.csv");
+  std::vector<std::vector<std::string>> other = read_table(folder / "two/compare.csv");
+  REQUIRE(table.size() > 100);
+  REQUIRE(table.size() == other.size());
+  CHECK(table[0] == std::vector<std::string>{"method", "parameters", "quantity", "seconds", "core_seconds",
+                                             "samples_per_texel", "rmse", "bias", "p99", "max", "psnr"});
+  std::map<std::string, int> quantities;
+  for (std::size_t i = 1; i < table.size(); ++i) {
+    REQUIRE(table[i].size() == 11);
+    ++quantities[table[i][2]];
+    CHECK(std::stod(table[i][4]) > 0);
+    table[i][3] = table[i][4] = other[i][3] = other[i][4] = "";  // times differ
+    CHECK(table[i] == other[i]);
+  }
+  for (const char* quantity : {"sky_view_factor", "ambient_occlusion", "bent_normal_deg",
+                               "two_tone_irradiance", "total_irradiance_0.3", "total_irradiance_0.8"}) {
+    INFO(quantity);
+    CHECK(quantities[quantity] > 0);
+  }
+  const std::string report = read_text(folder / "one/report.md");
+  CHECK(report.find("The cheapest method for each error: sky_view_factor") != std::string::npos);
+  CHECK(report.find("nan") == std::string::npos);
+}
+
+TEST_CASE("compare takes a map with holes, an image as albedo, and a level map", "[cli][compare]") {
+  const ScratchFolder folder;
+  std::string grid = "ncols 12\nnrows 10\nxllcorner 0\nyllcorner 0\ncellsize 10\nNODATA_value -9\n";
+  for (int i = 0; i < 120; ++i) grid += i % 17 == 3 ? "-9 " : std::to_string(i * i % 23) + " ";
+  write_text(folder / "holes.asc", grid + "\n");
+  Map albedo(12, 10);
+  for (std::size_t i = 0; i < albedo.size(); ++i) albedo.values[i] = 0.01F * static_cast<float>(i % 80);
+  write_float_image(folder / "albedo.exr", {{"Y", &albedo}});
+  write_png16(folder / "level.png", Image<std::uint16_t>(8, 8, 77));
+  const CommandResult holes = run_command("compare holes.asc -o out --albedo albedo.exr --quiet", folder);
+  INFO(holes.error);
+  CHECK(holes.exit_code == 0);
+  CHECK(read_text(folder / "out/compare.csv").find("total_irradiance_map") != std::string::npos);
+  CHECK(read_text(folder / "out/compare.csv").find("nan") == std::string::npos);
+  CHECK(run_command("compare level.png -o level --quiet", folder).exit_code == 0);
+}
+
+TEST_CASE("compare refuses what makes no sense, and leaves nothing behind", "[cli][compare]") {
+  const ScratchFolder folder;
+  REQUIRE(run_command("synth fbm -o map.png --size 16", folder).exit_code == 0);
+  const auto which = GENERATE(std::pair{"compare map.png -o out --azimuths 7", 2},
+                              std::pair{"compare map.png -o out --albedo 1.5", 2},
+                              std::pair{"compare map.png -o out --memory 10k", 1},
+                              std::pair{"compare absent.png -o out", 1}, std::pair{"compare map.png", 2});
+  const CommandResult result = run_command(which.first, folder);
+  INFO(which.first << ": " << result.error);
+  CHECK(result.exit_code == which.second);
+  CHECK(std::count(result.error.begin(), result.error.end(), '\n') == 1);
+  CHECK(folder.entry_count() == 1);
+}
+
+}  // namespace
+}  // namespace heightlight

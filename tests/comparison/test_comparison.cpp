@@ -1,0 +1,174 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "comparison/closed_form_totals.h"
+#include "comparison/compare_methods.h"
+#include "comparison/comparison_csv.h"
+#include "comparison/pareto_front.h"
+#include "plot/error_pictures.h"
+#include "plot/previews.h"
+#include "scratch_folder.h"
+#include "test_maps.h"
+
+namespace heightlight {
+namespace {
+
+constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
+
+TEST_CASE("error statistics leave out what has no value", "[comparison]") {
+  Map map(5, 1);
+  Map reference(5, 1);
+  map.values = {0.5F, 0.25F, 1, kMissing, 0.75F};
+  reference.values = {0.25F, 0.5F, 1, 0.5F, 0.5F};
+  const ErrorStatistics error = measure(subtract(map, reference));
+  CHECK(error.rmse == Approx(std::sqrt(3 * 0.0625 / 4)));
+  CHECK(error.bias == Approx(0.0625));
+  CHECK(error.largest == 0.25);
+  CHECK(error.p99 == 0.25);
+  CHECK(peak_signal_to_noise(error) == Approx(-20 * std::log10(error.rmse)));
+  const ErrorStatistics none = measure(Map(3, 1, kMissing));
+  CHECK((none.rmse == 0 && none.largest == 0));
+}
+
+TEST_CASE("the 99th percentile leaves the worst hundredth out", "[comparison]") {
+  Map differences(200, 1);
+  for (std::size_t i = 0; i < 200; ++i) differences.values[i] = static_cast<float>(i + 1) * (i % 2 ? 1 : -1);
+  CHECK(measure(differences).p99 == 198);
+  CHECK(measure(differences).largest == 200);
+}
+
+TEST_CASE("angles between unit vectors are in degrees, small ones too", "[comparison]") {
+  Image<Eigen::Vector3f> a(2, 1, Eigen::Vector3f::UnitZ());
+  Image<Eigen::Vector3f> b(2, 1, Eigen::Vector3f::UnitX());
+  b(0, 1) = Eigen::Vector3f(1e-4F, 0, 1).normalized();
+  const Map angles = angles_deg(a, b);
+  CHECK(angles(0, 0) == Approx(90));
+  CHECK(angles(0, 1) == Approx(1e-4 * 180 / std::numbers::pi).epsilon(1e-4));
+}
+
+ComparisonRow row(const char* method, double core_seconds, double rmse, const char* quantity = "q") {
+  ComparisonRow result;
+  result.method = method;
+  result.quantity = quantity;
+  result.cost.core_seconds = core_seconds;
+  result.error.rmse = rmse;
+  return result;
+}
+
+TEST_CASE("the Pareto front holds what nothing beats in both time and error", "[comparison]") {
+  const std::vector<ComparisonRow> rows{row("slow", 3, 0.01),        row("fast", 1, 0.1),
+                                        row("beaten", 2, 0.2),       row("middle", 2, 0.05),
+                                        row("twin", 3, 0.01),        row("other", 0.1, 0.001, "r"),
+                                        row(kExactMethod, 0.5, 1e-9)};
+  const std::vector<const ComparisonRow*> front = pareto_front(rows, "q");
+  REQUIRE(front.size() == 3);
+  CHECK(front[0]->method == "fast");
+  CHECK(front[1]->method == "middle");
+  CHECK(front[2]->method == "slow");
+  CHECK(cheapest(rows, "q", 0.1)->method == "fast");
+  CHECK(cheapest(rows, "q", 0.06)->method == "middle");
+  CHECK(cheapest(rows, "q", 0.001) == nullptr);
+  CHECK(pareto_front(rows, "none of them").empty());
+}
+
+TEST_CASE("the table has one line per row, bent normals without a psnr", "[comparison]") {
+  const ScratchFolder folder;
+  std::vector<ComparisonRow> rows{row("gtao", 0.5, 0.1, kSkyQuantity), row("gtao", 0.5, 2, kBentQuantity)};
+  rows[0].parameters = "3 x 3";
+  rows[0].samples_per_texel = 18;
+  write_comparison_csv(folder / "compare.csv", rows);
+  CHECK(read_text(folder / "compare.csv") ==
+        "method,parameters,quantity,seconds,core_seconds,samples_per_texel,rmse,bias,p99,max,psnr\n"
+        "gtao,3 x 3,sky_view_factor,0,0.5,18,0.1,0,0,0,20\n"
+        "gtao,,bent_normal_deg,0,0.5,,2,0,0,0,\n");
+}
+
+TEST_CASE("differences are blue below, white at and red above the reference, on one scale", "[comparison]") {
+  Map differences(5, 1);
+  differences.values = {-1, -0.1F, 0, 0.2F, kMissing};
+  const Image<Rgb8> picture = difference_picture(differences);
+  CHECK(picture(0, 0) == Rgb8{33, 102, 172});  // clipped
+  CHECK(picture(0, 2) == Rgb8{255, 255, 255});
+  CHECK(picture(0, 3) == Rgb8{178, 24, 43});
+  CHECK(picture(0, 1)[2] > picture(0, 1)[0]);
+  CHECK(picture(0, 4) == kMissingColour);
+}
+
+/// A scene small enough to compare all methods on.
+struct SmallScene {
+  Surface surface;
+  std::vector<ComparedAlbedo> albedos;
+  Reference reference;
+
+  explicit SmallScene(const char* shape)
+      : surface(build_surface(make_synth_map(shape, 32, Boundary::tile, 0.1))),
+        albedos{{"0.5", TexelVector::Constant(32 * 32, 0.5), {}}},
+        reference(build_reference(surface, {64, albedos})) {}
+};
+
+TEST_CASE("the reference knows its own error, and half the sky sends half of the light", "[comparison]") {
+  const SmallScene scene("cobbles");
+  CHECK(scene.reference.checked == 256);
+  CHECK(scene.reference.sky_rmse < 1e-3);    // discretisation: 64 azimuths
+  CHECK(scene.reference.ray_rmse < 1.5e-3);  // and 65536 rays
+  CHECK(scene.reference.total_rmse.at(0) < 5e-3);
+  double half = 0;
+  double whole = 0;
+  for (std::size_t i = 0; i < scene.reference.half_sky.size(); ++i) {
+    half += double{scene.reference.half_sky.values[i]};
+    whole += double{scene.reference.sky_view_factor.values[i]};
+    REQUIRE(scene.reference.half_sky.values[i] <= scene.reference.sky_view_factor.values[i] + 1e-6F);
+  }
+  CHECK(half / whole == Approx(0.5).margin(0.02));  // slopes towards either side are as frequent on a tile
+}
+
+TEST_CASE("every method is compared, and the exact ones come out exact", "[comparison][slow]") {
+  const SmallScene scene("brick");
+  const DepthBuffer depth = make_depth_buffer(scene.surface);
+  const ComparedScene compared{scene.surface, depth, scene.albedos};
+  const Comparison comparison = compare_methods(compared, scene.reference, make_contenders(compared), true);
+  const auto rmse = [&](const std::string& method, const std::string& quantity) {
+    double least = 1;
+    for (const ComparisonRow& r : comparison.rows) {
+      if (r.method == method && r.quantity == quantity) least = std::min(least, r.error.rmse);
+    }
+    return least;
+  };
+  CHECK(rmse("rays", kSkyQuantity) < 0.01);  // Monte Carlo: 256 rays
+  CHECK(rmse("horizon walk planned", kSkyQuantity) < 0.004);
+  CHECK(rmse("gtao", kSkyQuantity) < 0.002);  // converged; the reference has 64 azimuths
+  CHECK(rmse("gtao", kBentQuantity) < 0.5);
+  CHECK(rmse("hbao", kOcclusionQuantity) < 0.005);
+  CHECK(rmse("hbao", kSkyQuantity) > 0.01);
+  CHECK(rmse("rays with links", "total_irradiance_0.5") < 0.01);
+  CHECK(rmse("ambient transfer", "total_irradiance_0.5") < 0.3);
+  CHECK(rmse("ssdo", kTwoToneQuantity) < 0.3);
+  CHECK(comparison.shown.size() >= 8);
+  for (const ComparisonRow& r : comparison.rows) {
+    INFO(r.method << ", " << r.parameters << ", " << r.quantity);
+    CHECK(r.parameters.find(',') == std::string::npos);
+    CHECK(std::isfinite(r.error.rmse));
+    CHECK(r.error.rmse < (r.quantity == kBentQuantity ? 60 : 0.6));
+  }
+}
+
+TEST_CASE("closed forms on the reference's own A are what the models say", "[comparison]") {
+  const SmallScene scene("sines");
+  Estimate exact;
+  exact.sky_view_factor = scene.reference.sky_view_factor;
+  for (const ClosedForm& form : closed_forms()) {
+    const bool wants_alpha = form.kind == AoKind::ambient_occlusion;
+    CHECK(can_evaluate(form, exact) == (!wants_alpha && form.extra != ExtraInput::seen));
+    if (form.name != "uniform_neighbourhood") continue;
+    const Map total = evaluate_closed_form(form, exact, scene.surface, scene.albedos[0]);
+    for (std::size_t i = 0; i < total.size(); ++i) {
+      const float open = exact.sky_view_factor.values[i];
+      REQUIRE(total.values[i] == Approx(open / (1 - 0.5F * (1 - open))).margin(1e-6));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace heightlight

@@ -1,0 +1,97 @@
+#include <Eigen/Dense>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "stability/hard_maps.h"
+#include "test_maps.h"
+#include "transport/simulated.h"
+
+// Totals against a dense solution of (I − F ρ) x = E₀ in extended precision, F being taken column by column
+// from the operator itself.
+
+namespace heightlight {
+namespace {
+
+using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+using Vector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
+
+Matrix dense_operator(const Transport& transport) {
+  const Eigen::Index n = transport.direct.size();
+  Matrix matrix(n, n);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    matrix.col(j) = transport.gather(TexelVector::Unit(n, j)).cast<long double>();
+  }
+  return matrix;
+}
+
+TexelVector dense_total(const Matrix& form_factors, const TexelVector& direct, const TexelVector& albedo) {
+  const Eigen::Index n = direct.size();
+  const Matrix system = Matrix::Identity(n, n) - form_factors * albedo.cast<long double>().asDiagonal();
+  return system.partialPivLu().solve(Vector(direct.cast<long double>())).cast<double>();
+}
+
+TEST_CASE("totals are those of a dense solution, for albedos at their edges", "[stability]") {
+  const Finder finder = GENERATE(by_rays(256), by_exact_slices(32), by_horizon_walks());
+  const std::string name = GENERATE("rough", "well", "slit");
+  CAPTURE(finder.name, name);
+  const Heightmap map = name == "rough" ? make_rough_map(9, 9, Boundary::tile, 0.5, 0, 2)
+                                        : make_map(9, 9, Boundary::open, [&](int row, int column) {
+                                            const bool low = std::abs(column - 4) <= 1 &&
+                                                             (name == "slit" || std::abs(row - 4) <= 1);
+                                            return low ? -1000.0 : 0.0;
+                                          });
+  const Surface surface = build_surface(map);
+  const std::unique_ptr<Transport> transport = finder.find(surface);
+  const Matrix form_factors = dense_operator(*transport);
+  for (const double albedo : {0.0, 0.5, 1 - 1e-7, 1.0}) {
+    CAPTURE(albedo);
+    const TexelVector reflectance = TexelVector::Constant(81, albedo);
+    const TexelVector expected = dense_total(form_factors, transport->direct, reflectance);
+    const Equilibrium found =
+        solve_equilibrium(*transport, transport->direct, reflectance, transport->direct);
+    // The residual, over 1 − ρ × the spectral radius: wells hold what falls in for many bounces.
+    CHECK((found.irradiance - expected).cwiseAbs().maxCoeff() < 300 * transport->solver_tolerance());
+    CHECK(found.irradiance.minCoeff() >= transport->direct.minCoeff() - 1e-9);
+    CHECK(found.irradiance.maxCoeff() < 1 + 300 * transport->solver_tolerance());
+    if (albedo == 0) CHECK((found.irradiance - transport->direct).isZero(0));
+  }
+  TexelVector chequered(81);
+  for (Eigen::Index i = 0; i < 81; ++i) chequered[i] = i % 2 == 0 ? 0 : 0.9;
+  const TexelVector expected = dense_total(form_factors, transport->direct, chequered);
+  const Equilibrium found = solve_equilibrium(*transport, transport->direct, chequered, transport->direct);
+  CHECK((found.irradiance - expected).cwiseAbs().maxCoeff() < 100 * transport->solver_tolerance());
+}
+
+TEST_CASE("a well a thousand times as deep as wide keeps what falls in, and says so", "[stability]") {
+  const Finder finder = GENERATE(by_rays(512), by_exact_slices(32));
+  CAPTURE(finder.name);
+  const Heightmap map = make_map(9, 9, Boundary::open, [](int row, int column) {
+    return std::abs(row - 4) <= 1 && std::abs(column - 4) <= 1 ? -1000.0 : 0.0;
+  });
+  const Simulated simulated = simulate_map(map, finder);
+  // Bounces die out like the radius's powers: the twentieth still brings a share that truncation would lose.
+  CHECK(simulated.series.spectral_radius > 0.9);
+  CHECK(simulated.series.spectral_radius < 1);
+  CHECK(simulated.tail.irradiance.maxCoeff() > 0.1);
+  CHECK((simulated.series.sum + simulated.tail.irradiance).minCoeff() == Approx(1).margin(1e-5));
+}
+
+TEST_CASE("totals from conservation are right where bounces die out slowly", "[stability]") {
+  const Heightmap map = make_rough_map(16, 16, Boundary::tile, 2.0, 0, 4);
+  const Surface surface = build_surface(map);
+  const std::unique_ptr<Transport> transport = by_horizon_walks().find(surface);
+  const Matrix form_factors = dense_operator(*transport);
+  for (const double albedo : {0.3, 0.8, 0.99}) {
+    const TexelVector expected =
+        dense_total(form_factors, transport->direct, TexelVector::Constant(256, albedo));
+    constexpr double kTolerance = 1e-4;
+    const TotalIrradiance found = solve_totals(*transport, {albedo}, kTolerance);
+    const double rmse = (found.totals[0] - expected).norm() / 16;
+    // truncation: bounces end when the last one changes a total by kTolerance; those after it change it by as
+    // much again for every 1/(1 − ρ) of them
+    CHECK(rmse < 5 * kTolerance / (1 - albedo));
+  }
+}
+
+}  // namespace
+}  // namespace heightlight
