@@ -56,6 +56,15 @@ void add_stretch(const SliceNormal& normal, const Eigen::Vector2d& azimuth, doub
   }
 }
 
+/// The receiver's own facet, where it rises above the tangent plane: it is seen at its middle, which no edge
+/// of a cell goes through.
+bool is_own_facet(const VisibleStretch& stretch) {
+  const float across = stretch.begin.across;
+  const float down = stretch.begin.down;
+  return stretch.begin_way == stretch.end_way && across != down && std::min(across, down) > 0 &&
+         std::max(across, down) < 1;
+}
+
 }  // namespace
 
 double open_share(const Reach& reach, double distance) {
@@ -102,7 +111,7 @@ ExactSky find_exact_sky(const ExactWalker& walker, int row, int column, const st
     if (!reach) continue;
     double from = tangent;
     for (const VisibleStretch& stretch : stretches) {
-      add_stretch(in_slice, azimuth, from, stretch, *reach, sky);
+      if (!is_own_facet(stretch)) add_stretch(in_slice, azimuth, from, stretch, *reach, sky);
       from = stretch.slope;
     }
   }

@@ -11,9 +11,10 @@
 // Walking outward, every stretch of the profile that rises above what came before is seen between two slopes
 // m and m', and what the sky would send from there counts by the stretch's distance d:
 //     Σ μ(d) (S(m) − S(m')) + S(the last m).
-// A stretch is seen from where it passes the slope m on. With a falloff its distance is taken under the angle
-// halfway between m and m'. A sharp reach hides what lies inside the sphere of radius D around the receiver,
-// between the slopes of the places where the stretch enters and leaves it.
+// A stretch is seen from where it passes the slope m on. With a falloff the mean of μ is taken of two angles
+// between m and m'. A sharp reach hides what lies inside the sphere of radius D around the receiver,
+// between the slopes of the places where the stretch enters and leaves it. The receiver's own facet is hit at
+// once: it hides whatever the reach.
 //
 // A sharp reach has horizons of its own, too. A ray of elevation h > 0 passes below the surface at the
 // horizontal distance t where that stands under the slope s(t) ≥ tan h, and is t / cos h long there: no

@@ -135,19 +135,34 @@ void add(float share, const SliceSums& slice, SliceSums& sum) {
   sum.mixed += share * slice.mixed;
 }
 
-/// μ at the place where a stretch from `begin` to `end`, seen from slope m to `seen`, stands for itself.
-float share_of_stretch(const ProfilePoint& begin, const ProfilePoint& end, float m, float seen,
-                       const ReachTable& reach) {
+/// The slope halfway between two, by angle.
+float slope_between(float a, float b) {
+  const float cosine_a = 1 / std::sqrt(1 + a * a);
+  const float cosine_b = 1 / std::sqrt(1 + b * b);
+  return (a * cosine_a + b * cosine_b) / (cosine_a + cosine_b);
+}
+
+/// Mean of μ over a stretch from `begin` to `end`, seen from slope m to `seen`: that under the angles a
+/// quarter and three quarters between, weighted as they light the receiver.
+float share_of_stretch(const ProfilePoint& begin, const ProfilePoint& end, float c, float n_z, float m,
+                       float seen, const ReachTable& reach) {
+  if (begin.way == 0) return 0;  // the receiver's own facet: it is hit at once
   const float g = (end.rise - begin.rise) / run_between(begin.way, end.way);
   const float p = begin.rise - g * begin.way;
-  const float passes = m < g ? -p / (g - m) : begin.way;  // the line p + g t is under slope m there
-  // The receiver's own facet stands for itself at its far end.
-  const float way = begin.way > 0 ? 0.5F * (std::clamp(passes, begin.way, end.way) + end.way) : end.way;
-  const float low = 1 / std::sqrt(1 + m * m);
-  const float high = 1 / std::sqrt(1 + seen * seen);
-  const float middle = (m * low + seen * high) / (low + high);
-  const float share = std::min(1.0F, way * std::sqrt(1 + middle * middle) / reach.distance);
-  return reach.falloff == Falloff::root ? std::sqrt(share) : share;
+  const float middle = slope_between(m, seen);
+  float weights = 1e-20F;
+  float sum = 0;
+  for (const float slope : {slope_between(m, middle), slope_between(middle, seen)}) {
+    // The line p + g t is under the slope there.
+    const float meets = slope < g ? -p / (g - slope) : begin.way;
+    const float way = begin.rise <= reach.deepest ? end.way : std::clamp(meets, begin.way, end.way);
+    const float squared = 1 + slope * slope;
+    const float share = std::min(1.0F, way * std::sqrt(squared) / reach.distance);
+    const float weight = std::max(0.0F, c + n_z * slope) / squared;
+    weights += weight;
+    sum += weight * (reach.falloff == Falloff::root ? std::sqrt(share) : share);
+  }
+  return sum / weights;
 }
 
 /// Of a sharp reach: the slopes between which a stretch lies inside its sphere, no less than m and no more
@@ -155,7 +170,9 @@ float share_of_stretch(const ProfilePoint& begin, const ProfilePoint& end, float
 /// p² = D².
 std::pair<float, float> slopes_inside(const ProfilePoint& begin, const ProfilePoint& end, float m, float seen,
                                       const ReachTable& reach) {
-  if (begin.way == 0) return end.squared() <= reach.squared ? std::pair{m, seen} : std::pair{m, m};
+  if (begin.way == 0) return {m, seen};
+  // What stands behind a hole is seen at its end.
+  if (begin.rise <= reach.deepest) return {m, end.squared() <= reach.squared ? seen : m};
   const float g = (end.rise - begin.rise) / run_between(begin.way, end.way);
   const float p = begin.rise - g * begin.way;
   const float u = 1 + g * g;
@@ -184,7 +201,7 @@ SliceSums slice_within(const WalkTile& tile, const AzimuthTable& azimuth, const 
       add(1, above - integrate_slice(c, n_z, low, wanted), open);
       add(1, integrate_slice(c, n_z, high, wanted) - next, open);
     } else {
-      add(share_of_stretch(from, to, m, seen, reach), above - next, open);
+      add(share_of_stretch(from, to, c, n_z, m, seen, reach), above - next, open);
     }
     above = next;
     m = seen;

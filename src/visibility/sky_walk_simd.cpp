@@ -125,43 +125,66 @@ void walk_sky_lanes(const WalkTile& tile, const AzimuthTable& azimuth, const Far
   });
 }
 
-/// μ of stretches; share_of_stretch of sky_walk_scalar.cpp.
-HWY_INLINE VF share_of_stretches(VF begin, float before, VF rise, float way, VF m, VF seen,
-                                 const ReachTable& reach) {
+HWY_INLINE VF slope_between(VF a, VF b) {
   const VF one = hn::Set(kF, 1.0F);
-  const VF first = hn::Set(kF, before);
-  const VF last = hn::Set(kF, way);
-  const VF g = hn::Mul(hn::Sub(rise, begin), hn::Set(kF, 1 / run_between(before, way)));
-  const VF p = hn::NegMulAdd(g, first, begin);
-  const auto passes_later = hn::Lt(m, g);
-  const VF steeper = hn::IfThenElse(passes_later, hn::Sub(g, m), one);
-  const VF passes = hn::IfThenElse(passes_later, hn::Div(hn::Neg(p), steeper), first);
-  const VF clamped = hn::Min(hn::Max(passes, first), last);
-  const VF middle_way = before > 0 ? hn::Mul(hn::Set(kF, 0.5F), hn::Add(clamped, last)) : last;
-  const VF low = hn::Div(one, hn::Sqrt(hn::MulAdd(m, m, one)));
-  const VF high = hn::Div(one, hn::Sqrt(hn::MulAdd(seen, seen, one)));
-  const VF middle = hn::Div(hn::MulAdd(m, low, hn::Mul(seen, high)), hn::Add(low, high));
-  const VF distance = hn::Mul(middle_way, hn::Sqrt(hn::MulAdd(middle, middle, one)));
-  const VF share = hn::Min(one, hn::Div(distance, hn::Set(kF, reach.distance)));
-  return reach.falloff == Falloff::root ? hn::Sqrt(share) : share;
+  const VF cosine_a = hn::Div(one, hn::Sqrt(hn::MulAdd(a, a, one)));
+  const VF cosine_b = hn::Div(one, hn::Sqrt(hn::MulAdd(b, b, one)));
+  return hn::Div(hn::MulAdd(a, cosine_a, hn::Mul(b, cosine_b)), hn::Add(cosine_a, cosine_b));
+}
+
+/// A stretch of the profile, per receiver: share_of_stretch of sky_walk_scalar.cpp has the names.
+struct Stretch {
+  VF begin, rise;
+  float before, way;
+};
+
+/// Mean of μ over stretches seen from slope m to `seen`.
+HWY_INLINE VF share_of_stretches(const Stretch& stretch, VF c, VF n_z, VF m, VF seen,
+                                 const ReachTable& reach) {
+  if (stretch.before <= 0) return hn::Zero(kF);
+  const VF one = hn::Set(kF, 1.0F);
+  const VF zero = hn::Zero(kF);
+  const VF first = hn::Set(kF, stretch.before);
+  const VF last = hn::Set(kF, stretch.way);
+  const VF g = hn::Mul(hn::Sub(stretch.rise, stretch.begin),
+                       hn::Set(kF, 1 / run_between(stretch.before, stretch.way)));
+  const VF p = hn::NegMulAdd(g, first, stretch.begin);
+  const auto behind_hole = hn::Le(stretch.begin, hn::Set(kF, reach.deepest));
+  const VF middle = slope_between(m, seen);
+  VF weights = hn::Set(kF, 1e-20F);
+  VF sum = zero;
+  for (const bool upper : {false, true}) {
+    const VF slope = upper ? slope_between(middle, seen) : slope_between(m, middle);
+    const auto rises = hn::Lt(slope, g);
+    const VF steeper = hn::IfThenElse(rises, hn::Sub(g, slope), one);
+    const VF meets = hn::IfThenElse(rises, hn::Div(hn::Neg(p), steeper), first);
+    const VF clamped = hn::Min(hn::Max(meets, first), last);
+    const VF way = hn::IfThenElse(behind_hole, last, clamped);
+    const VF squared = hn::MulAdd(slope, slope, one);
+    const VF distance = hn::Mul(way, hn::Sqrt(squared));
+    const VF share = hn::Min(one, hn::Div(distance, hn::Set(kF, reach.distance)));
+    const VF weight = hn::Div(hn::Max(zero, hn::MulAdd(n_z, slope, c)), squared);
+    weights = hn::Add(weights, weight);
+    sum = hn::MulAdd(weight, reach.falloff == Falloff::root ? hn::Sqrt(share) : share, sum);
+  }
+  return hn::Div(sum, weights);
 }
 
 /// Of a sharp reach: slopes_inside of sky_walk_scalar.cpp.
 struct SlopePair {
   VF low, high;
 };
-HWY_INLINE SlopePair slopes_inside(VF begin, float before, VF rise, float way, VF m, VF seen,
-                                   const ReachTable& reach) {
+HWY_INLINE SlopePair slopes_inside(const Stretch& stretch, VF m, VF seen, const ReachTable& reach) {
+  if (stretch.before <= 0) return {m, seen};
   const VF squared = hn::Set(kF, reach.squared);
-  if (before <= 0) {
-    const VF end = hn::MulAdd(rise, rise, hn::Set(kF, way * way));
-    return {m, hn::IfThenElse(hn::Le(end, squared), seen, m)};
-  }
+  const VF end = hn::MulAdd(stretch.rise, stretch.rise, hn::Set(kF, stretch.way * stretch.way));
+  const VF whole = hn::IfThenElse(hn::Le(end, squared), seen, m);
   const VF zero = hn::Zero(kF);
-  const VF first = hn::Set(kF, before);
-  const VF last = hn::Set(kF, way);
-  const VF g = hn::Mul(hn::Sub(rise, begin), hn::Set(kF, 1 / run_between(before, way)));
-  const VF p = hn::NegMulAdd(g, first, begin);
+  const VF first = hn::Set(kF, stretch.before);
+  const VF last = hn::Set(kF, stretch.way);
+  const VF g = hn::Mul(hn::Sub(stretch.rise, stretch.begin),
+                       hn::Set(kF, 1 / run_between(stretch.before, stretch.way)));
+  const VF p = hn::NegMulAdd(g, first, stretch.begin);
   const VF u = hn::MulAdd(g, g, hn::Set(kF, 1.0F));
   const VF root = hn::NegMulAdd(p, p, hn::Mul(squared, u));
   const VF half = hn::Sqrt(hn::Max(root, zero));
@@ -173,7 +196,9 @@ HWY_INLINE SlopePair slopes_inside(VF begin, float before, VF rise, float way, V
   const VF from = hn::Min(hn::Max(low, m), seen);
   const VF to = hn::Min(hn::Max(high, from), seen);
   const auto meets = hn::Gt(root, zero);
-  return {hn::IfThenElse(meets, from, m), hn::IfThenElse(meets, to, m)};
+  const auto behind_hole = hn::Le(stretch.begin, hn::Set(kF, reach.deepest));
+  return {hn::IfThenElse(behind_hole, m, hn::IfThenElse(meets, from, m)),
+          hn::IfThenElse(behind_hole, whole, hn::IfThenElse(meets, to, m))};
 }
 
 HWY_INLINE void walk_chain(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach,
@@ -194,10 +219,10 @@ HWY_INLINE void walk_chain(const WalkTile& tile, const AzimuthTable& azimuth, co
       const VF higher = hn::Max(m, seen);  // where nothing rises, what is between both is nothing
       const SliceSums next = integrate_sums(c[v], n_z[v], higher, sums.wanted);
       if (reach.falloff != Falloff::none) {
-        const VF share = share_of_stretches(begin, before, rise, way, m, higher, reach);
+        const VF share = share_of_stretches({begin, rise, before, way}, c[v], n_z[v], m, higher, reach);
         add_between(share, above[v], next, sums.wanted, open[v]);
       } else {
-        const SlopePair inside = slopes_inside(begin, before, rise, way, m, higher, reach);
+        const SlopePair inside = slopes_inside({begin, rise, before, way}, m, higher, reach);
         const VF one = hn::Set(kF, 1.0F);
         add_between(one, above[v], integrate_sums(c[v], n_z[v], inside.low, sums.wanted), sums.wanted,
                     open[v]);

@@ -226,12 +226,13 @@ TEST_CASE("a limited reach converges to that of exact profiles", "[visibility][r
   INFO(shape << ", " << to_string(boundary) << ", reach " << distance << ", falloff "
              << static_cast<int>(falloff) << ": A " << error.sky << ", alpha " << error.ambient << ", first "
              << error.first << ", second " << error.second);
-  // discretisation: of samples beyond 16 texels, of eight nodes, and of the stretch that a sharp reach cuts,
-  // over which the exact profile's eight angles are in or out as a whole
+  // discretisation: of samples beyond 32 texels, and of two angles whose mean stands for μ of a wall: all
+  // moments take the same (measured: A 1.3e-3, α 2.9e-3, moments 5.6e-3 at three texels; sharp reaches 10⁻³)
+  const double moments = falloff == Falloff::none ? 2e-3 : 7e-3;
   CHECK(error.sky < 2e-3);
-  CHECK(error.ambient < 3e-3);
-  CHECK(error.first < 2e-3);
-  CHECK(error.second < 2e-3);
+  CHECK(error.ambient < 3.5e-3);
+  CHECK(error.first < moments);
+  CHECK(error.second < moments);
 }
 
 TEST_CASE("a reach beyond everything is no reach", "[visibility][reach]") {
