@@ -1,8 +1,8 @@
 # RMSE of irradiance under two skies, by method, for each map of a directional table (make-directional).
 if (terminal eq 'svg') {
-  set terminal svg size 1100,460 font 'Helvetica,14' background rgb 'white' enhanced
+  set terminal svg size 1100,500 font 'Helvetica,14' background rgb 'white' enhanced
 } else {
-  set terminal pngcairo size 1100,460 font 'Helvetica,11' background rgb 'white' enhanced
+  set terminal pngcairo size 1100,500 font 'Helvetica,11' background rgb 'white' enhanced
 }
 set output picture
 set datafile separator comma
@@ -12,6 +12,7 @@ set style fill solid border -1
 set logscale y
 set yrange [0.02:40]
 set ylabel "RMSE of the irradiance, % of its mean"
+set xtics rotate by -25
 set grid ytics
 set key top left
 set multiplot layout 1, 2
