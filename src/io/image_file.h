@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -50,5 +51,7 @@ void write_texture(const std::filesystem::path& path, const TextureLayout& layou
 
 /// SHA-256 of a file's bytes, hexadecimal. Throws Error.
 std::string sha256_of_file(const std::filesystem::path& path);
+/// Of these bytes.
+std::string sha256_of(std::string_view bytes);
 
 }  // namespace heightlight
