@@ -128,7 +128,7 @@ Simulation simulate_map(const SimulateOptions& options) {
   simulation.height = loaded.map.height.height;
   const std::uint64_t link_memory = memory_for_links(options, loaded.map);
   const Surface surface = build_surface(std::move(loaded.map));
-  const Albedo albedo = read_albedo(options.albedo, surface, options.run.memory);
+  const Albedo albedo = read_albedo(options.albedo, surface.map, options.run.memory);
   StagedFolder folder(options.folder);
   seconds.load = watch.lap();
 
