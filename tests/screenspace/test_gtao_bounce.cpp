@@ -79,7 +79,7 @@ TEST_CASE("the bounce gathers what exact walks gather", "[screenspace]") {
     }
   }
   CHECK(exact_sum / 576 > 0.08);  // there is something to gather
-  // discretisation: a stretch between two samples counts as its far end
+  // discretisation: a stretch between two samples sends the mean of its ends
   CHECK(std::sqrt(squares / 576) < 2e-3);
 }
 
