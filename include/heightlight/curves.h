@@ -76,7 +76,10 @@ class CurveBuilder {
   std::shared_ptr<const BinGroups> groups_;
 };
 
-/// `curves.csv` as the design says: ao_kind,bin,ao_lo,ao_hi,ao_mean,count,bounce,mean,stddev,p05,p50,p95,
+/// The first line of `curves.csv`.
+constexpr const char* kCurvesHeader = "ao_kind,bin,ao_lo,ao_hi,ao_mean,count,bounce,mean,stddev,p05,p50,p95";
+
+/// Writes `curves.csv`: one line per kind, bin and bounce, in this order,
 /// both kinds below each other, numbers with as many digits as a double needs. Throws Error naming the file.
 void write_curves_csv(const std::filesystem::path& path, const std::vector<BounceCurves>& curves);
 

@@ -16,6 +16,11 @@ struct UsageError : Error {
   using Error::Error;
 };
 
+/// A result could not be written: a full disk, an unwritable folder, something else in its place.
+struct OutputError : Error {
+  using Error::Error;
+};
+
 /// The user asked to stop (SIGINT, SIGTERM). The command line exits with 128 + signal.
 struct Interrupted : Error {
   explicit Interrupted(int signal_number) : Error("interrupted"), signal(signal_number) {}

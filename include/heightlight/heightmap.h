@@ -43,6 +43,8 @@ std::size_t count_missing(const Heightmap& map);
 struct LoadOptions {
   std::optional<double>
       relief;  ///< > 0; peak-to-valley of the result. Integer files: width / 10; others: as they are
+  std::optional<double>
+      relief_share;                  ///< > 0; the same over the width (spacing × columns). Excludes `relief`
   std::optional<double> width;       ///< > 0; extent of the columns, world units. Default 1. Excludes `texel`
   std::optional<Spacing> texel;      ///< spacing; default width / columns, or an Esri grid's own cell size
   std::optional<Boundary> boundary;  ///< default `open` for Esri grids, `tile` for images

@@ -8,6 +8,7 @@
 #include "cli/commands.h"
 #include "core/interrupt.h"
 #include "heightlight/error.h"
+#include "io/staging_folder.h"
 
 namespace heightlight {
 namespace {
@@ -15,6 +16,12 @@ namespace {
 int fail(int exit_code, const std::string& message) {
   std::fprintf(stderr, "heightlight: %s\n", message.c_str());
   return exit_code;
+}
+
+/// After a signal that the work at hand did not heed in time.
+void end_late(int signal_number) {
+  fail(0, "interrupted");
+  end_without_staging(128 + signal_number);
 }
 
 // CLI11 tells usage errors from requests for help by the exit code that it would use.
@@ -26,7 +33,6 @@ int finish_parse(const CLI::App& app, const CLI::ParseError& error) {
 }  // namespace
 
 int run_command_line(int argument_count, const char* const* arguments) {
-  note_interrupts();
   CLI::App app{
       "Light on height fields: ambient occlusion, form factors, bounces, and what closed forms make of them"};
   app.name("heightlight");
@@ -36,7 +42,9 @@ int run_command_line(int argument_count, const char* const* arguments) {
   add_compare_command(app);
   add_synth_command(app);
   add_info_command(app);
+  add_dataset_command(app);
   try {
+    note_interrupts(end_late);
     app.parse(argument_count, arguments);
     return 0;
   } catch (const CLI::ParseError& error) {

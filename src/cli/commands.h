@@ -9,6 +9,7 @@ namespace heightlight {
 void add_info_command(CLI::App& app);
 void add_synth_command(CLI::App& app);
 void add_simulate_command(CLI::App& app);
+void add_dataset_command(CLI::App& app);
 void add_compare_command(CLI::App& app);
 
 }  // namespace heightlight

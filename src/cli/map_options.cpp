@@ -60,7 +60,7 @@ void add_map_options(CLI::App& command, MapOptions& options) {
   command.add_flag("--invert", load.invert, "the file holds depths: its highest value is the lowest place");
 }
 
-void add_run_options(CLI::App& command, RunOptions& options) {
+void add_resource_options(CLI::App& command, RunOptions& options) {
   command
       .add_option("--threads", options.threads,
                   "threads to use (one per processor); results do not depend on it")
@@ -70,8 +70,12 @@ void add_run_options(CLI::App& command, RunOptions& options) {
           "--memory", [&options](const std::string& text) { options.memory = parse_byte_size(text); },
           "most memory to use, such as 8G (four fifths of what is free)")
       ->type_name("BYTES");
-  command.add_option("--seed", options.seed, "seed of every random choice (1)");
   command.add_flag("--quiet", options.quiet, "no progress bar, no report");
+}
+
+void add_run_options(CLI::App& command, RunOptions& options) {
+  add_resource_options(command, options);
+  command.add_option("--seed", options.seed, "seed of every random choice (1)");
 }
 
 void apply_run_options(RunOptions& options) {

@@ -26,7 +26,10 @@ struct RunOptions {
   bool quiet = false;
 };
 
-/// Adds `--threads --memory --seed --quiet`.
+/// Adds `--threads --memory --quiet`.
+void add_resource_options(CLI::App& command, RunOptions& options);
+
+/// Adds these, and `--seed`.
 void add_run_options(CLI::App& command, RunOptions& options);
 
 /// Sets the number of threads, and the default for `--memory`: four fifths of what the machine can still

@@ -8,9 +8,7 @@
 #include "cli/albedo.h"
 #include "cli/map_options.h"
 #include "cli/visibility_options.h"
-#include "heightlight/curves.h"
 #include "heightlight/transport.h"
-#include "io/staged_output.h"
 
 namespace heightlight {
 
@@ -18,6 +16,7 @@ namespace heightlight {
 struct SimulateOptions {
   MapOptions map;
   RunOptions run;
+  std::string sha256;  ///< what the map's file must have; empty: whatever it has
   std::filesystem::path folder;
   VisibilityOptions visibility;
   int bounces = 20;
@@ -59,6 +58,8 @@ struct SeenSky {
 /// Everything that the summary reports.
 struct Simulation {
   SourceFacts facts;
+  int width = 0;  ///< of the map, in texels
+  int height = 0;
   std::optional<HorizonPlan> plan;      ///< of fast horizon walks
   std::optional<double> rmse_estimate;  ///< of A; absent where no receiver is
   std::optional<HorizonCheck> check;    ///< of horizon walks
@@ -69,7 +70,15 @@ struct Simulation {
   StepTimes seconds;
 };
 
-/// Writes `summary.json`. Throws Error naming the file.
+/// Throws UsageError naming the option that is out of its range or contradicts another.
+void check_simulate_options(const SimulateOptions& options);
+
+/// All that `heightlight simulate` does for one map, from its file to the committed folder. `options.run` has
+/// been applied. Throws Error naming what could not be done, OutputError where a result could not be written,
+/// UsageError, Interrupted; the folder then is as it was.
+Simulation simulate_map(const SimulateOptions& options);
+
+/// Writes `summary.json`. Throws OutputError.
 void write_summary(const std::filesystem::path& path, const SimulateOptions& options, const Surface& surface,
                    const Albedo& albedo, const Simulation& simulation);
 

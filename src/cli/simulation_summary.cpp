@@ -89,7 +89,8 @@ void write_summary(const std::filesystem::path& path, const SimulateOptions& opt
   summary["memory"] = {{"peak_bytes", peak_memory()}};
   summary["threads"] = thread_count();
 
-  write_bytes(path, summary.dump(2) + '\n');
+  // Names of files may hold bytes that are no UTF-8, which JSON cannot.
+  write_bytes(path, summary.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
 }
 
 }  // namespace heightlight

@@ -15,7 +15,7 @@ namespace heightlight {
 struct VisibilityOptions {
   std::string method;  ///< "horizon", "rays", or empty: rays where their number is given, else horizon
   std::optional<int>
-      rays;              ///< 300 where absent, so that each of 100 bins holds three of the values α can take
+      rays;  ///< 300 where absent, so that each of 100 bins holds three of the values α can take
   std::optional<int> azimuths;  ///< chosen for the error wanted where absent
   std::optional<double> error;  ///< RMSE of A and of the total; 0: exact slices; 0.002 where absent
 

@@ -6,9 +6,16 @@
 #include <cstdio>
 
 namespace heightlight {
+namespace {
+
+std::string bar_context;  // set between works, not during one
+
+}  // namespace
+
+void Progress::set_context(std::string context) { bar_context = std::move(context); }
 
 Progress::Progress(std::string label, std::int64_t total, bool quiet)
-    : label_(std::move(label)),
+    : label_(bar_context + std::move(label)),
       total_(total),
       draws_(!quiet && isatty(STDERR_FILENO) == 1),
       start_(std::chrono::steady_clock::now()) {}

@@ -20,6 +20,9 @@ class Progress {
 
   void add(std::int64_t units);
 
+  /// What every bar begins with from now on: where in a longer job this work stands. Empty for nothing.
+  static void set_context(std::string context);
+
  private:
   void draw(double seconds, std::int64_t done);
 

@@ -32,6 +32,9 @@ void check_positive(const char* option, const std::optional<double>& value) {
 
 void check_options(const LoadOptions& options) {
   check_positive("--relief", options.relief);
+  check_positive("the relief's share of the width", options.relief_share);
+  if (options.relief && options.relief_share)
+    throw UsageError("the relief is given twice: as a height, and as a share of the width");
   check_positive("--width", options.width);
   if (!options.texel) return;
   check_positive("--texel", options.texel->x);
@@ -148,7 +151,9 @@ LoadedHeightmap load_heightmap(const std::filesystem::path& path, const LoadOpti
   map.spacing = choose_spacing(path, options, stored);
   map.boundary = options.boundary.value_or(stored.grid ? Boundary::open : Boundary::tile);
   std::optional<double> relief = options.relief;
-  if (!relief && stored.facts.is_integer) relief = map.spacing.x * stored.values.width / 10;
+  const double width = map.spacing.x * stored.values.width;
+  if (options.relief_share) relief = *options.relief_share * width;
+  if (!relief && stored.facts.is_integer) relief = width / 10;
   map.height = to_heights(path, stored, relief, options.invert);
   if (!relief) map.base = options.invert ? -stored.facts.highest : stored.facts.lowest;
   if (options.shrink != 1) map = shrink(map, options.shrink);

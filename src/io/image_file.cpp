@@ -8,7 +8,7 @@
 #include <cassert>
 #include <functional>
 
-#include "io/input_file.h"
+#include "core/interrupt.h"
 #include "io/output_file.h"
 
 namespace heightlight {
@@ -20,7 +20,7 @@ void write_oiio(const std::filesystem::path& path, const char* format, const OII
   write_file(path, [&](std::FILE* stream) {
     OIIO::Filesystem::IOFile proxy(stream, OIIO::Filesystem::IOProxy::Write);
     const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
-    if (!output) throw file_error(path, std::string("cannot be written: no writer for ") + format);
+    if (!output) throw output_error(path, std::string("no writer for ") + format);
     const bool taken = output->set_ioproxy(&proxy) && output->open(path.string(), spec);
     const bool written = taken && write_samples(*output);
     const std::string fault = output->geterror();
@@ -28,7 +28,7 @@ void write_oiio(const std::filesystem::path& path, const char* format, const OII
     // A failed stream explains itself better (no space left) than the library that met it.
     if (std::ferror(stream)) return;
     if (!written || !closed) {
-      throw file_error(path, "cannot be written: " + fault.substr(0, fault.find('\n')));
+      throw output_error(path, fault.substr(0, fault.find('\n')));
     }
   });
 }
@@ -57,7 +57,7 @@ void write_png(const std::filesystem::path& path, const Image<Rgb8>& picture) {
     const int stride = picture.width * 3;
     if (!stbi_write_png_to_func(append, stream, picture.width, picture.height, 3, picture.values.data(),
                                 stride)) {
-      throw file_error(path, "cannot be written: no memory to compress it");
+      throw output_error(path, "no memory to compress it");
     }
   });
 }
@@ -90,6 +90,7 @@ void write_float_image(const std::filesystem::path& path,
   write_oiio(path, is_tiff ? "tiff" : "openexr", spec, [&](OIIO::ImageOutput& output) {
     constexpr int kRowsAtATime = 256;  // a multiple of the 16 rows that EXR compresses together
     for (int row = 0; row < first.height; row += kRowsAtATime) {
+      throw_if_interrupted();
       const int rows = std::min(kRowsAtATime, first.height - row);
       const std::vector<float> samples = interleave(channels, row, rows);
       if (!output.write_scanlines(row, row + rows, 0, OIIO::TypeDesc::FLOAT, samples.data())) return false;

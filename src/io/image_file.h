@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -30,5 +31,7 @@ void write_float_image(const std::filesystem::path& path,
 
 /// SHA-256 of a file's bytes, hexadecimal. Throws Error.
 std::string sha256_of_file(const std::filesystem::path& path);
+/// Of these bytes.
+std::string sha256_of(std::string_view bytes);
 
 }  // namespace heightlight

@@ -4,19 +4,26 @@
 #include <system_error>
 
 #include "io/input_file.h"
+#include "io/staging_folder.h"
 
 namespace heightlight {
 
+OutputError output_error(const std::filesystem::path& path, const std::string& fault) {
+  return OutputError(final_path(path).string() + ": cannot be written: " + fault);
+}
+
+OutputError output_error(const std::filesystem::path& path, int error_number) {
+  return output_error(path, std::generic_category().message(error_number));
+}
+
 void write_file(const std::filesystem::path& path, const std::function<void(std::FILE*)>& write) {
-  const auto fail = [&path](int error_number) {
-    throw file_error(path, "cannot be written: " + std::generic_category().message(error_number));
-  };
   errno = 0;
   const File file(std::fopen(path.c_str(), "wb"));
-  if (!file) fail(errno);
+  if (!file) throw output_error(path, errno);
   write(file.get());
   // A full disk may show only when the last bytes leave the buffer.
-  if (std::fflush(file.get()) != 0 || std::ferror(file.get())) fail(errno == 0 ? EIO : errno);
+  if (std::fflush(file.get()) != 0 || std::ferror(file.get()))
+    throw output_error(path, errno == 0 ? EIO : errno);
 }
 
 void write_bytes(const std::filesystem::path& path, std::string_view bytes) {

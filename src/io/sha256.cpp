@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/interrupt.h"
 #include "io/image_file.h"
 #include "io/input_file.h"
 
@@ -24,22 +25,46 @@ std::string to_hexadecimal(const unsigned char* bytes, unsigned int count) {
   return text;
 }
 
+/// One SHA-256, fed bit by bit.
+class Sha256 {
+ public:
+  Sha256() : context_(EVP_MD_CTX_new()) {
+    ok_ = context_ && EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) == 1;
+  }
+  void add(const void* bytes, std::size_t count) {
+    ok_ = ok_ && EVP_DigestUpdate(context_.get(), bytes, count) == 1;
+  }
+  std::string finish() {
+    std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+    unsigned int size = 0;
+    ok_ = ok_ && EVP_DigestFinal_ex(context_.get(), digest.data(), &size) == 1;
+    if (!ok_) throw Error("SHA-256 cannot be computed: OpenSSL's library fails");
+    return to_hexadecimal(digest.data(), size);
+  }
+
+ private:
+  std::unique_ptr<EVP_MD_CTX, FreeDigest> context_;
+  bool ok_ = false;
+};
+
 }  // namespace
 
 std::string sha256_of_file(const std::filesystem::path& path) {
   const File file = open_input(path);
-  const std::unique_ptr<EVP_MD_CTX, FreeDigest> context(EVP_MD_CTX_new());
-  bool ok = context && EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr) == 1;
+  Sha256 sum;
   std::vector<unsigned char> block(1 << 20);
   while (const std::size_t count = std::fread(block.data(), 1, block.size(), file.get())) {
-    ok = ok && EVP_DigestUpdate(context.get(), block.data(), count) == 1;
+    throw_if_interrupted();
+    sum.add(block.data(), count);
   }
   if (std::ferror(file.get())) throw file_error(path, "cannot be read to its end");
-  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-  unsigned int size = 0;
-  ok = ok && EVP_DigestFinal_ex(context.get(), digest.data(), &size) == 1;
-  if (!ok) throw file_error(path, "its SHA-256 cannot be computed");
-  return to_hexadecimal(digest.data(), size);
+  return sum.finish();
+}
+
+std::string sha256_of(std::string_view bytes) {
+  Sha256 sum;
+  sum.add(bytes.data(), bytes.size());
+  return sum.finish();
 }
 
 }  // namespace heightlight

@@ -5,51 +5,48 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdlib>
 #include <system_error>
 
 #include "io/input_file.h"
+#include "io/output_file.h"
 
 namespace heightlight {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string system_message(int error_number) { return std::generic_category().message(error_number); }
-
-/// A new hidden folder in `folder`, so that renaming from one to the other never crosses file systems.
-fs::path make_staging(const fs::path& folder) {
-  std::string name = (folder / ".heightlight-XXXXXX").string();
-  if (!mkdtemp(name.data())) throw file_error(folder, "cannot be written to: " + system_message(errno));
-  return name;
-}
-
 void sync_to_disk(const fs::path& staged, const fs::path& destination) {
   const int descriptor = open(staged.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) throw file_error(destination, "was not written");
+  if (descriptor < 0) throw output_error(destination, "nothing was put there");
   const int result = fsync(descriptor);
   const int error_number = errno;
   close(descriptor);
   // Some file systems have nothing to sync to and say EINVAL.
-  if (result != 0 && error_number != EINVAL) {
-    throw file_error(destination, "cannot be written: " + system_message(error_number));
-  }
+  if (result != 0 && error_number != EINVAL) throw output_error(destination, error_number);
+}
+
+/// So that the names in a folder survive a power cut; as far as the system lets us.
+void sync_names(const fs::path& folder) {
+  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  fsync(descriptor);
+  close(descriptor);
 }
 
 /// A rename would replace a device or fail on a folder; both are refused before work is spent.
 void check_replaceable(const fs::path& destination) {
   std::error_code ignored;
   const fs::file_status status = fs::status(destination, ignored);
-  if (fs::is_directory(status)) throw file_error(destination, "cannot be written: it is a directory");
+  if (fs::is_directory(status)) throw output_error(destination, "it is a directory");
   if (fs::exists(status) && !fs::is_regular_file(status)) {
-    throw file_error(destination, "cannot be written: it is not a regular file");
+    throw output_error(destination, "it is not a regular file");
   }
 }
 
-void put_in_place(const fs::path& staged, const fs::path& destination) {
+void rename_into_place(const fs::path& staged, const fs::path& destination) {
   std::error_code failure;
   fs::rename(staged, destination, failure);
-  if (failure) throw file_error(destination, "cannot be written: " + failure.message());
+  if (failure) throw output_error(destination, failure.message());
 }
 
 /// The topmost folder on the way to `folder` that does not exist; empty when all do.
@@ -69,30 +66,42 @@ void remove_empty_folders(fs::path folder, const fs::path& top) {
   }
 }
 
+fs::path parent_of(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
 }  // namespace
 
 StagedFolder::StagedFolder(fs::path folder) : folder_(std::move(folder)) {
   if (!folder_.has_filename()) folder_ = folder_.parent_path();  // "out/" is "out"
   std::error_code failure;
-  if (fs::exists(folder_, failure) && !fs::is_directory(folder_, failure)) {
+  const fs::file_status status = fs::status(folder_, failure);
+  if (status.type() == fs::file_type::none) throw output_error(folder_, failure.message());
+  if (fs::exists(status) && !fs::is_directory(status))
     throw file_error(folder_, "exists and is not a folder");
+  is_new_ = !fs::exists(status);
+  if (is_new_ && fs::is_symlink(fs::symlink_status(folder_, failure)))
+    throw output_error(folder_, "it is a link to nothing");
+  const fs::path parent = parent_of(folder_);
+  if (is_new_) {
+    first_created_ = topmost_missing(parent);
+    fs::create_directories(parent, failure);
   }
-  first_created_ = topmost_missing(folder_);
-  fs::create_directories(folder_, failure);
   try {
-    if (failure) throw file_error(folder_, "cannot be created: " + failure.message());
-    staging_ = make_staging(folder_);
+    if (is_new_ && failure) throw output_error(folder_, failure.message());
+    // A name that is too long shows only now, where its parent is.
+    if (fs::status(folder_, failure).type() == fs::file_type::none)
+      throw output_error(folder_, failure.message());
+    staging_ = std::make_unique<StagingFolder>(is_new_ ? parent : folder_, folder_, folder_);
   } catch (const Error&) {
-    remove_empty_folders(folder_, first_created_);
+    remove_empty_folders(parent, first_created_);
     throw;
   }
 }
 
 StagedFolder::~StagedFolder() {
-  if (committed_) return;
-  std::error_code ignored;
-  fs::remove_all(staging_, ignored);
-  remove_empty_folders(folder_, first_created_);
+  staging_.reset();
+  if (!committed_) remove_empty_folders(parent_of(folder_), first_created_);
 }
 
 fs::path StagedFolder::file(const std::string& name) {
@@ -100,43 +109,48 @@ fs::path StagedFolder::file(const std::string& name) {
     check_replaceable(final_path(name));
     names_.push_back(name);
   }
-  return staging_ / name;
+  return staging_->path() / name;
+}
+
+void StagedFolder::put_in_place() {
+  const auto lock = hold_off_end();
+  if (is_new_ && staging_->become(folder_)) return;
+  // Files of the folder that was there, or that another process has made meanwhile.
+  for (const std::string& name : names_) rename_into_place(staging_->path() / name, final_path(name));
 }
 
 void StagedFolder::commit() {
   // All that can fail for want of space or by a folder in the way fails here, before the first file is
   // replaced.
   for (const std::string& name : names_) {
-    sync_to_disk(staging_ / name, final_path(name));
+    sync_to_disk(staging_->path() / name, final_path(name));
     check_replaceable(final_path(name));
   }
-  for (const std::string& name : names_) put_in_place(staging_ / name, final_path(name));
+  sync_names(staging_->path());
+  put_in_place();
   committed_ = true;
-  std::error_code ignored;
-  fs::remove_all(staging_, ignored);
-  sync_to_disk(folder_, folder_);
+  staging_.reset();
+  sync_names(folder_);
+  sync_names(parent_of(folder_));
 }
 
 StagedFile::StagedFile(fs::path destination) : destination_(std::move(destination)) {
   if (!destination_.has_filename()) throw file_error(destination_, "is not the name of a file");
   check_replaceable(destination_);
-  const fs::path folder = destination_.has_parent_path() ? destination_.parent_path() : fs::path(".");
+  const fs::path folder = parent_of(destination_);
   std::error_code ignored;
-  if (!fs::exists(folder, ignored))
-    throw file_error(destination_, "cannot be written: its folder does not exist");
-  staged_ = make_staging(folder) / destination_.filename();
-}
-
-StagedFile::~StagedFile() {
-  std::error_code ignored;
-  fs::remove_all(staged_.parent_path(), ignored);
+  if (!fs::exists(folder, ignored)) throw output_error(destination_, "its folder does not exist");
+  staging_ = std::make_unique<StagingFolder>(folder, folder, destination_);
+  staged_ = staging_->path() / destination_.filename();
 }
 
 void StagedFile::commit() {
   sync_to_disk(staged_, destination_);
-  put_in_place(staged_, destination_);
-  const fs::path folder = staged_.parent_path().parent_path();
-  sync_to_disk(folder, folder);
+  {
+    const auto lock = hold_off_end();
+    rename_into_place(staged_, destination_);
+  }
+  sync_names(parent_of(destination_));
 }
 
 }  // namespace heightlight

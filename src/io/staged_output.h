@@ -1,18 +1,23 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
+
+#include "io/staging_folder.h"
 
 namespace heightlight {
 
 /// A folder of results that appears whole or not at all. Files are written into a hidden staging folder on
-/// the same file system; `commit` syncs them and renames each into place; without it, the destructor removes
-/// every trace, folders that this object created included.
+/// the same file system and synced. Where the folder is new, `commit` gives it its name: it is there with all
+/// its files, or not at all. Where it exists, `commit` renames file after file into it, in the order in which
+/// they were asked for, and the last to come says that all are there. Without `commit`, the destructor
+/// removes every trace, parent folders that this object created included.
 class StagedFolder {
  public:
-  /// Creates `folder` (and its parents) where absent. Throws Error naming it when it can't be created or
-  /// written to, or exists and is no folder.
+  /// Creates the parents of `folder` where absent. Throws Error naming it when it can't be created or written
+  /// to, or exists and is no folder.
   explicit StagedFolder(std::filesystem::path folder);
   ~StagedFolder();
   StagedFolder(const StagedFolder&) = delete;
@@ -29,9 +34,12 @@ class StagedFolder {
   void commit();
 
  private:
+  void put_in_place();
+
   std::filesystem::path folder_;
-  std::filesystem::path staging_;
-  std::filesystem::path first_created_;  ///< topmost folder that did not exist before; empty if all did
+  std::filesystem::path first_created_;  ///< topmost parent that did not exist before; empty if all did
+  bool is_new_ = false;                  ///< the staging folder is to become the folder
+  std::unique_ptr<StagingFolder> staging_;
   std::vector<std::string> names_;
   bool committed_ = false;
 };
@@ -42,9 +50,6 @@ class StagedFile {
   /// Throws Error when the folder of `destination` is absent or can't be written to, or `destination` exists
   /// and is not a regular file.
   explicit StagedFile(std::filesystem::path destination);
-  ~StagedFile();
-  StagedFile(const StagedFile&) = delete;
-  StagedFile& operator=(const StagedFile&) = delete;
 
   /// Where to write it; it keeps the destination's name, whose extension chooses the format.
   const std::filesystem::path& path() const { return staged_; }
@@ -54,7 +59,8 @@ class StagedFile {
 
  private:
   std::filesystem::path destination_;
-  std::filesystem::path staged_;  ///< alone in a hidden folder beside the destination
+  std::unique_ptr<StagingFolder> staging_;  ///< beside the destination
+  std::filesystem::path staged_;            ///< alone in it
 };
 
 }  // namespace heightlight

@@ -87,7 +87,9 @@ class LinkLanes {
   }
 
  private:
-  VF mass(VF m, VF q) const { return hn::NegMulAdd(n_z_, q, hn::Mul(c_, hn::MulAdd(m, q, arc_tangent(kF, m)))); }
+  VF mass(VF m, VF q) const {
+    return hn::NegMulAdd(n_z_, q, hn::Mul(c_, hn::MulAdd(m, q, arc_tangent(kF, m))));
+  }
 
   void look(VF s, float way, const NodeShare& share) {
     const auto rises = hn::Gt(s, hn::Add(slope_, hn::Set(kF, kLeastRise)));

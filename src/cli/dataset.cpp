@@ -1,0 +1,169 @@
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <new>
+#include <set>
+#include <system_error>
+
+#include "cli/commands.h"
+#include "cli/dataset_runs.h"
+#include "cli/dataset_tables.h"
+#include "cli/manifest.h"
+#include "cli/stop_watch.h"
+#include "core/progress.h"
+#include "heightlight/error.h"
+#include "heightlight/synth.h"
+#include "io/folder_lock.h"
+#include "io/image_file.h"
+#include "io/map_size.h"
+#include "io/output_file.h"
+#include "io/staged_output.h"
+
+namespace heightlight {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct DatasetOptions {
+  fs::path manifest;
+  fs::path folder;
+  RunOptions run;
+};
+
+void make_folder(const fs::path& folder) {
+  std::error_code failure;
+  fs::create_directories(folder, failure);
+  if (failure) throw output_error(folder, failure.message());
+}
+
+void refuse_to_replace(const fs::path& manifest, const fs::path& folder) {
+  std::error_code ignored;  // of files that do not exist, which nothing replaces
+  if (fs::equivalent(manifest, folder / "dataset.json", ignored))
+    throw UsageError(manifest.string() + ": the results would replace it; choose another folder with -o");
+}
+
+/// Writes the shape that a run is to read, once in the life of this process: what lies there may be an older
+/// version's.
+void make_shape(const DatasetRun& run, std::set<const ManifestMap*>& made) {
+  const ManifestMap& map = *run.map;
+  if (!map.is_shape() || made.contains(&map)) return;
+  const fs::path& path = run.simulate.map.path;
+  const auto side = static_cast<std::uint64_t>(map.size);
+  constexpr std::uint64_t kBytesPerTexel = 16;  // heights beside what they are made from
+  check_map_size(path, side, side, kBytesPerTexel, run.simulate.run.memory);
+  make_folder(path.parent_path());
+  const Image<float> heights = synthesize(map.source, map.size, map.seed);
+  StagedFile file(path);
+  write_float_image(file.path(), {{"Y", &heights}});
+  file.commit();
+  made.insert(&map);
+}
+
+/// Why a run failed. Where results cannot be written, no run can do anything, and the job ends.
+std::string try_run(const DatasetRun& run, std::set<const ManifestMap*>& made) {
+  try {
+    make_shape(run, made);
+    simulate_map(run.simulate);
+    return "";
+  } catch (const OutputError&) {
+    throw;
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    return "out of memory";
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+void tell(const DatasetRun& run) {
+  std::fprintf(stderr, "heightlight: %s: %s\n", run.name.c_str(), run.fault.c_str());
+}
+
+/// Does what is to be done, in the manifest's order.
+void do_runs(const std::vector<DatasetRun*>& runs, bool quiet) {
+  Progress progress("dataset", static_cast<std::int64_t>(runs.size()), quiet);
+  std::set<const ManifestMap*> made;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    DatasetRun& run = *runs[i];
+    Progress::set_context("run " + std::to_string(i + 1) + " of " + std::to_string(runs.size()) + ": ");
+    StopWatch watch;
+    run.fault = try_run(run, made);
+    Progress::set_context("");
+    if (!run.fault.empty()) {
+      tell(run);
+    } else if (!quiet) {
+      std::printf("%s: %.1f s\n", run.name.c_str(), watch.lap());
+      std::fflush(stdout);
+    }
+    progress.add(1);
+  }
+}
+
+/// Folders in runs/ that no run of the manifest has: of maps or options that were changed or left out.
+std::ptrdiff_t count_stale(const std::vector<DatasetRun>& runs, const fs::path& folder) {
+  std::set<std::string> names;
+  for (const DatasetRun& run : runs) names.insert(run.name);
+  std::error_code ignored;
+  return std::count_if(fs::directory_iterator(runs_folder(folder), ignored), fs::directory_iterator(),
+                       [&](const fs::directory_entry& entry) {
+                         const std::string name = entry.path().filename().string();
+                         return !name.starts_with('.') && !names.contains(name);
+                       });
+}
+
+void make_dataset(DatasetOptions& options) {
+  apply_run_options(options.run);
+  const Manifest manifest = read_manifest(options.manifest);
+  refuse_to_replace(options.manifest, options.folder);
+  make_folder(options.folder);
+  const FolderLock lock(options.folder);
+  std::vector<DatasetRun> runs = list_runs(manifest, options.folder, options.run);
+  std::vector<DatasetRun*> to_do;
+  for (DatasetRun& run : runs) {
+    if (!run.fault.empty()) {
+      tell(run);
+    } else if (!is_done(run)) {
+      to_do.push_back(&run);
+    }
+  }
+  if (!options.run.quiet) {
+    std::printf("%s: %zu runs, %zu of them to do\n", options.manifest.c_str(), runs.size(), to_do.size());
+    std::fflush(stdout);
+  }
+  make_folder(runs_folder(options.folder));
+  do_runs(to_do, options.run.quiet);
+  write_tables(manifest, runs, options.folder);
+  const auto failed =
+      std::count_if(runs.begin(), runs.end(), [](const DatasetRun& run) { return !run.fault.empty(); });
+  if (!options.run.quiet) {
+    const std::ptrdiff_t stale = count_stale(runs, options.folder);
+    if (stale > 0) std::printf("%td folders in runs/ belong to no run of the manifest any more\n", stale);
+    std::printf("results in %s\n", options.folder.c_str());
+  }
+  if (failed > 0) {
+    throw Error(options.manifest.string() + ": " + std::to_string(failed) + " of " +
+                std::to_string(runs.size()) + " runs could not be done");
+  }
+}
+
+}  // namespace
+
+void add_dataset_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("dataset", "Simulate many maps, reliefs and options into one table");
+  auto options = std::make_shared<DatasetOptions>();
+  command->add_option("MANIFEST", options->manifest, "what to simulate, as JSON; see below")->required();
+  command->add_option("-o,--output", options->folder, "folder for the results")->type_name("DIR")->required();
+  add_resource_options(*command, options->run);
+  command->footer(
+      describe_manifest() +
+      "Results: dataset.csv (all curves), dataset.json (where they come from, how far to trust them),\n"
+      "costs.csv (seconds), and in runs/ a folder per run with what simulate writes. Stopped or killed, the\n"
+      "same command goes on where it was; runs whose map, options or version changed are made again. What\n"
+      "is no longer in the manifest leaves the tables; its folder stays, and counts again when it returns.\n"
+      "Example:\n"
+      "  heightlight dataset study.json -o study");
+  command->callback([options] { make_dataset(*options); });
+}
+
+}  // namespace heightlight

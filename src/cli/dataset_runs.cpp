@@ -1,0 +1,150 @@
+#include "cli/dataset_runs.h"
+
+#include <nlohmann/json.hpp>
+
+#include "cli/json_place.h"
+#include "core/digits.h"
+#include "io/image_file.h"
+
+namespace heightlight {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+/// The SHA-256 of a file, or why there is none.
+struct Checksum {
+  std::string sha256;
+  std::string fault;
+};
+
+Checksum checksum_of(const fs::path& file) {
+  try {
+    return {sha256_of_file(file), ""};
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const Error& error) {
+    return {"", error.what()};
+  }
+}
+
+template <class T>
+Json or_null(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+/// A shape is what its recipe and this version make of it; a file, what it holds.
+Json describe_map(const ManifestMap& map, const Checksum& checksum, const LoadOptions& load) {
+  Json content = checksum.sha256;
+  if (map.is_shape()) content = {map.source, map.size, map.seed};
+  Json texel = nullptr;
+  if (load.texel) texel = {load.texel->x, load.texel->y};
+  return {{"name", map.name},
+          {"file", map.file.filename().string()},
+          {"content", content},
+          {"relief", or_null(load.relief)},
+          {"relief_share", or_null(load.relief_share)},
+          {"width", or_null(load.width)},
+          {"texel", texel},
+          {"boundary", load.boundary ? Json(to_string(*load.boundary)) : Json(nullptr)},
+          {"no_data", or_null(load.no_data)},
+          {"channel", or_null(load.channel)},
+          {"shrink", load.shrink},
+          {"invert", load.invert}};
+}
+
+/// Only what the results depend on: the wanted error means nothing to rays.
+Json describe_simulation(const SimulateOptions& options, const std::string& albedo) {
+  const VisibilityOptions& visibility = options.visibility;
+  Json chosen = {{"error", visibility.error_wanted()}, {"azimuths", or_null(visibility.azimuths)}};
+  if (visibility.by_rays()) chosen = {{"rays", visibility.ray_count()}};
+  return {{"visibility", chosen}, {"seed", options.run.seed}, {"bounces", options.bounces},
+          {"bins", options.bins}, {"albedo", albedo},         {"save_bounces", options.save_bounces}};
+}
+
+std::string name_run(const DatasetRun& run) {
+  std::string name = run.map->name;
+  if (run.relief_share) name += "_relief" + in_digits(*run.relief_share);
+  if (run.boundary) name += std::string("_") + to_string(*run.boundary);
+  if (!run.options->name.empty()) name += "_" + run.options->name;
+  constexpr std::size_t kDigits = 12;
+  return run.key.empty() ? name : name + "-" + run.key.substr(0, kDigits);
+}
+
+LoadOptions load_options(const DatasetRun& run) {
+  LoadOptions load = run.map->load;
+  if (run.relief_share) {
+    load.relief.reset();
+    load.relief_share = run.relief_share;
+  }
+  if (run.boundary) load.boundary = run.boundary;
+  return load;
+}
+
+void complete(DatasetRun& run, const fs::path& folder, const RunOptions& given, const Checksum& map,
+              const Checksum& albedo) {
+  SimulateOptions& simulate = run.simulate;
+  simulate = run.options->simulate;
+  const std::uint64_t seed = simulate.run.seed;
+  simulate.run = given;
+  simulate.run.seed = seed;
+  simulate.map.load = load_options(run);
+  simulate.map.path = run.map->is_shape() ? shapes_folder(folder) / (run.map->name + ".exr") : run.map->file;
+  simulate.sha256 = map.sha256;
+  run.fault = map.fault.empty() ? albedo.fault : map.fault;
+  if (run.fault.empty()) {
+    const std::string reflectance = run.options->albedo_file.empty() ? simulate.albedo : albedo.sha256;
+    const Json all = {{"version", HEIGHTLIGHT_VERSION},
+                      {"map", describe_map(*run.map, map, simulate.map.load)},
+                      {"options", describe_simulation(simulate, reflectance)}};
+    run.key = sha256_of(all.dump(-1, ' ', false, Json::error_handler_t::replace));
+  }
+  run.name = name_run(run);
+  simulate.folder = runs_folder(folder) / run.name;
+}
+
+}  // namespace
+
+fs::path runs_folder(const fs::path& folder) { return folder / "runs"; }
+fs::path shapes_folder(const fs::path& folder) { return folder / "maps"; }
+
+std::vector<DatasetRun> list_runs(const Manifest& manifest, const fs::path& folder, const RunOptions& given) {
+  std::vector<Checksum> albedos;
+  for (const ManifestOptions& options : manifest.options) {
+    albedos.push_back(options.albedo_file.empty() ? Checksum{} : checksum_of(options.simulate.albedo));
+  }
+  std::vector<DatasetRun> runs;
+  for (const ManifestMap& map : manifest.maps) {
+    const Checksum checksum = map.is_shape() ? Checksum{} : checksum_of(map.file);
+    for (const std::optional<double>& share : manifest.relief_shares) {
+      for (const std::optional<Boundary>& boundary : manifest.boundaries) {
+        for (std::size_t i = 0; i < manifest.options.size(); ++i) {
+          DatasetRun run;
+          run.map = &map;
+          run.options = &manifest.options[i];
+          run.relief_share = share;
+          run.boundary = boundary;
+          complete(run, folder, given, checksum, albedos[i]);
+          runs.push_back(std::move(run));
+        }
+      }
+    }
+  }
+  return runs;
+}
+
+bool is_done(const DatasetRun& run) {
+  std::error_code ignored;
+  const fs::path summary = run.simulate.folder / "summary.json";
+  if (!run.fault.empty() || !fs::is_regular_file(run.simulate.folder / "curves.csv", ignored) ||
+      !fs::is_regular_file(summary, ignored)) {
+    return false;
+  }
+  try {
+    return read_json(summary).contains("energy");
+  } catch (const Error&) {
+    return false;  // damaged from outside: made again
+  }
+}
+
+}  // namespace heightlight

@@ -1,0 +1,142 @@
+#include "cli/json_place.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/input_file.h"
+
+namespace heightlight {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::size_t kLargestFile = 64 << 20;
+
+std::string read_all(const std::filesystem::path& path) {
+  const File file = open_input(path);
+  std::string text;
+  std::vector<char> block(1 << 16);
+  while (const std::size_t count = std::fread(block.data(), 1, block.size(), file.get())) {
+    text.append(block.data(), count);
+    if (text.size() > kLargestFile) throw file_error(path, "is too large for a description of runs");
+  }
+  if (std::ferror(file.get())) throw file_error(path, "cannot be read to its end");
+  return text;
+}
+
+/// Texts from outside, fit for one line.
+std::string fit_to_print(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < 32 || c == 127; }, '?');
+  return text;
+}
+
+/// The library's message without the tag in brackets that it begins with.
+std::string without_tag(const std::string& message) {
+  const std::size_t tag_end = message.find("] ");
+  return tag_end == std::string::npos ? message : message.substr(tag_end + 2);
+}
+
+/// Of two members with one key the parser keeps the last, which hides a mistake. Sees one event after the
+/// other, and knows the keys of every object that is still open.
+class RepeatedKeys {
+ public:
+  explicit RepeatedKeys(const std::filesystem::path& path) : path_(path) {}
+
+  void see(Json::parse_event_t event, const Json& value) {
+    if (event == Json::parse_event_t::object_start) open_.emplace_back();
+    if (event == Json::parse_event_t::object_end) open_.pop_back();
+    if (event != Json::parse_event_t::key) return;
+    const auto& key = value.get_ref<const std::string&>();
+    if (!open_.back().insert(key).second) {
+      throw file_error(path_, "the key \"" + fit_to_print(key) + "\" stands twice in one object");
+    }
+  }
+
+ private:
+  const std::filesystem::path& path_;
+  std::vector<std::set<std::string>> open_;
+};
+
+}  // namespace
+
+nlohmann::json read_json(const std::filesystem::path& path) {
+  const std::string text = read_all(path);
+  RepeatedKeys keys(path);
+  try {
+    return Json::parse(text, [&keys](int, Json::parse_event_t event, Json& value) {
+      keys.see(event, value);
+      return true;
+    });
+  } catch (const Json::exception& error) {
+    throw file_error(path, fit_to_print(without_tag(error.what())));
+  }
+}
+
+JsonPlace::JsonPlace(const Json& value, const std::filesystem::path& file) : JsonPlace(value, file, "") {}
+
+JsonPlace::JsonPlace(const Json& value, const std::filesystem::path& file, std::string pointer)
+    : value_(value), file_(file), pointer_(std::move(pointer)) {}
+
+Error JsonPlace::error(const std::string& fault) const {
+  return file_error(file_, fit_to_print((pointer_.empty() ? "/" : pointer_) + ": " + fault));
+}
+
+void JsonPlace::check_keys(const std::set<std::string>& known) const {
+  if (!value_.is_object()) throw error("must be an object, { … }");
+  for (const auto& [key, ignored] : value_.items()) {
+    if (known.contains(key)) continue;
+    std::string list;
+    for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
+    throw error("there is no \"" + key + "\" here; known are " + list);
+  }
+}
+
+std::optional<JsonPlace> JsonPlace::find(const std::string& key) const {
+  const auto found = value_.find(key);
+  if (found == value_.end()) return std::nullopt;
+  return JsonPlace(*found, file_, pointer_ + "/" + key);
+}
+
+std::vector<JsonPlace> JsonPlace::items() const {
+  if (!value_.is_array() || value_.empty()) throw error("must be a list with something in it, [ … ]");
+  std::vector<JsonPlace> places;
+  for (std::size_t i = 0; i < value_.size(); ++i) {
+    places.push_back(JsonPlace(value_[i], file_, pointer_ + "/" + std::to_string(i)));
+  }
+  return places;
+}
+
+std::string JsonPlace::text() const {
+  if (!value_.is_string()) throw error("must be a text, \"…\"");
+  const auto& text = value_.get_ref<const std::string&>();
+  if (text.empty() || text.find('\0') != std::string::npos) throw error("must be a text that is not empty");
+  return text;
+}
+
+bool JsonPlace::flag() const {
+  if (!value_.is_boolean()) throw error("must be true or false");
+  return value_.get<bool>();
+}
+
+double JsonPlace::number() const {
+  if (!value_.is_number() || !std::isfinite(value_.get<double>())) throw error("must be a number");
+  return value_.get<double>();
+}
+
+double JsonPlace::positive_number() const {
+  const double value = value_.is_number() ? number() : 0;
+  if (!(value > 0)) throw error("must be a positive number");
+  return value;
+}
+
+std::int64_t JsonPlace::integer(std::int64_t least, std::int64_t most) const {
+  const bool fits = value_.is_number_integer() &&
+                    (!value_.is_number_unsigned() || value_.get<std::uint64_t>() <= std::uint64_t{INT64_MAX});
+  if (!fits || value_.get<std::int64_t>() < least || value_.get<std::int64_t>() > most) {
+    throw error("must be an integer from " + std::to_string(least) + " to " + std::to_string(most));
+  }
+  return value_.get<std::int64_t>();
+}
+
+}  // namespace heightlight

@@ -1,0 +1,42 @@
+#include "cli/simulation_files.h"
+
+#include "io/image_file.h"
+#include "plot/previews.h"
+
+namespace heightlight {
+namespace {
+
+using Attributes = std::vector<std::pair<std::string, std::string>>;
+
+}  // namespace
+
+void write_map(StagedFolder& folder, const std::string& name, const Map& map, const std::string& meaning) {
+  write_float_image(folder.file(name), {{"Y", &map}}, Attributes{{"ImageDescription", meaning}});
+}
+
+void write_totals(StagedFolder& folder, const std::vector<Map>& totals) {
+  static constexpr const char* kColour[] = {"R", "G", "B"};
+  std::vector<std::pair<std::string, const Map*>> channels;
+  for (std::size_t i = 0; i < totals.size(); ++i)
+    channels.push_back({totals.size() == 1 ? "Y" : kColour[i], &totals[i]});
+  write_float_image(folder.file("irradiance_total.exr"), channels,
+                    Attributes{{"ImageDescription", "E / pi of all bounces, at the albedo given"}});
+}
+
+void write_occlusion(StagedFolder& folder, const Transport& transport) {
+  write_map(folder, "ambient_occlusion.exr", transport.ambient_occlusion,
+            "ambient occlusion: share of the hemisphere's solid angle that sees the sky");
+  write_map(folder, "sky_view_factor.exr", transport.sky_view_factor,
+            "sky view factor: cosine-weighted share of the hemisphere that sees the sky");
+}
+
+void write_pictures(StagedFolder& folder, const Surface& surface, const Transport& transport,
+                    const std::vector<Map>& first_bounces, const std::vector<Map>& totals) {
+  write_png(folder.file("height.png"), height_picture(surface));
+  write_png(folder.file("ambient_occlusion.png"), grey_picture(transport.ambient_occlusion));
+  write_png(folder.file("sky_view_factor.png"), grey_picture(transport.sky_view_factor));
+  write_png(folder.file("irradiance_total.png"), colour_picture(totals));
+  write_png(folder.file("bounces.png"), bounce_strip(first_bounces));
+}
+
+}  // namespace heightlight

@@ -1,0 +1,216 @@
+#include "solver_checks.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <memory>
+
+#include "core/hash.h"
+#include "core/parallel.h"
+#include "heightlight/transport.h"
+#include "visibility/exact_walk.h"
+#include "visibility/ray_caster.h"
+#include "visibility/walked_tiles.h"
+
+namespace heightlight {
+namespace {
+
+// Monte Carlo and quadrature together. Few rays and azimuths screen all receivers; where they differ by more
+// than 0.03, 64 times as many decide. A stratum that a horizon cuts errs by at most one ray, and horizons cut
+// some 4 √rays strata: of 16384 rays, 6 standard deviations of √(4 · 128)/2 rays are 0.004. As much again is
+// for what 4096 azimuths leave on cliffs of a few texels.
+constexpr int kScreeningRays = 256;
+constexpr int kScreeningAzimuths = 64;
+constexpr double kScreeningBound = 0.03;
+constexpr int kDecidingRays = 16384;
+constexpr int kDecidingAzimuths = 4096;
+constexpr double kDecidingBound = 0.01;
+
+// Rounding of sums of some hundred terms, with stored weights of 32 bits at worst.
+constexpr double kRowSumBound = 1e-12;
+
+bool same_bits(float a, float b) {
+  return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
+}
+
+std::string at(int row, int column) {
+  return " at row " + std::to_string(row) + ", column " + std::to_string(column);
+}
+
+/// Receivers that are present, as (row, column).
+template <class Visit>
+void for_receivers(const Surface& surface, Visit&& visit) {
+  for (int row = 0; row < surface.height(); ++row) {
+    for (int column = 0; column < surface.width(); ++column) {
+      if (!std::isnan(surface.map.height(row, column))) visit(row, column);
+    }
+  }
+}
+
+void compare_traversals(const Surface& surface, std::uint64_t seed, std::vector<std::string>& faults) {
+  if (surface.cell_columns() == 0 || surface.cell_rows() == 0) return;
+  const RayCaster caster(surface, {61, seed});
+  RayWorkspace lanes(caster.rays());
+  RayWorkspace twin(caster.rays());
+  for_receivers(surface, [&](int row, int column) {
+    const RayBundle bundle = caster.aim(row, column, caster.directions().turn(row, column), lanes);
+    traverse(caster.grid(), bundle, {lanes.cell.data(), lanes.across.data(), lanes.down.data()});
+    traverse_scalar(caster.grid(), bundle, {twin.cell.data(), twin.across.data(), twin.down.data()});
+    for (std::size_t i = 0; i < static_cast<std::size_t>(bundle.count); ++i) {
+      const bool same = lanes.cell[i] == twin.cell[i] &&
+                        (twin.cell[i] == kSky || (same_bits(lanes.across[i], twin.across[i]) &&
+                                                  same_bits(lanes.down[i], twin.down[i])));
+      if (same) continue;
+      faults.push_back("a ray in a lane ends elsewhere than its twin" + at(row, column));
+      return;
+    }
+  });
+}
+
+/// Slices and rays of one map, as fine as asked for.
+class SlicesAndRays {
+ public:
+  SlicesAndRays(const Surface& surface, int azimuths, int rays, std::uint64_t seed)
+      : walker_(surface, azimuths), caster_(surface, {rays, seed}), workspace_(rays) {}
+
+  /// The greater difference of A and of α.
+  double difference(int row, int column) {
+    walker_.view(row, column, slices_);
+    caster_.view(row, column, workspace_, view_);
+    const SkyShare share = sky_share(view_);
+    return std::max(std::fabs(share.sky_view_factor - slices_.sky_view_factor),
+                    std::fabs(share.ambient_occlusion - slices_.ambient_occlusion));
+  }
+
+ private:
+  ExactWalker walker_;
+  RayCaster caster_;
+  RayWorkspace workspace_;
+  SliceView slices_;
+  ReceiverView view_;
+};
+
+void compare_slices_and_rays(const Surface& surface, std::uint64_t seed, LargestDifferences& largest,
+                             std::vector<std::string>& faults) {
+  SlicesAndRays screening(surface, kScreeningAzimuths, kScreeningRays, seed);
+  std::unique_ptr<SlicesAndRays> deciding;
+  for_receivers(surface, [&](int row, int column) {
+    if (screening.difference(row, column) < kScreeningBound) return;
+    if (!deciding)
+      deciding = std::make_unique<SlicesAndRays>(surface, kDecidingAzimuths, kDecidingRays, seed);
+    const double difference = deciding->difference(row, column);
+    largest.slices_and_rays = std::max(largest.slices_and_rays, difference);
+    if (difference > kDecidingBound)
+      faults.push_back("slices and rays differ by " + std::to_string(difference) + at(row, column));
+  });
+}
+
+/// Rounding, as in the test of the walk: slopes of tall maps cancel to ε h/d (measured there: 3e-7,
+/// and 1.4e-6 at a relief of ten widths).
+double walk_bound(const Surface& surface) {
+  const double slope = relief(surface.map) / std::min(surface.map.spacing.x, surface.map.spacing.y);
+  return slope > 10 ? 1e-5 : 1e-6;
+}
+
+void compare_sky_walks(const Surface& surface, LargestDifferences& largest,
+                       std::vector<std::string>& faults) {
+  const WalkOptions options{6, 8, 0.3F};
+  const WalkedSky lanes = walk_sky_with(look_far, walk_sky, surface, options);
+  const WalkedSky twin = walk_sky_with(look_far_scalar, walk_sky_scalar, surface, options);
+  for (const auto& [name, a, b] :
+       {std::tuple{"sky", &lanes.sky, &twin.sky}, std::tuple{"tangent plane's", &lanes.full, &twin.full},
+        std::tuple{"solid angle's", &lanes.solid, &twin.solid}}) {
+    double worst = 0;
+    for_receivers(surface, [&](int row, int column) {
+      const std::size_t texel = surface.map.height.index(row, column);
+      worst = std::max(worst, std::fabs(double{(*a)[texel]} - double{(*b)[texel]}) / options.azimuths);
+    });
+    largest.lanes_and_twin = std::max(largest.lanes_and_twin, worst);
+    if (!(worst <= walk_bound(surface)))
+      faults.push_back(std::string("the walk's lanes and its twin differ in the ") + name + " sum by " +
+                       std::to_string(worst * 1e6) + "e-6");
+  }
+}
+
+TexelVector random_field(const Surface& surface, std::uint64_t seed) {
+  TexelVector field(static_cast<Eigen::Index>(surface.map.height.size()));
+  for (Eigen::Index i = 0; i < field.size(); ++i)
+    field[i] = unit_real(hash_combine(seed, static_cast<std::uint64_t>(i)));
+  return field;
+}
+
+/// What an operator is, as far as anyone can tell.
+struct Outcome {
+  Map ambient_occlusion;
+  Map sky_view_factor;
+  TexelVector direct;
+  TexelVector gathered;
+};
+
+bool same_bits(const Map& a, const Map& b) {
+  return std::equal(a.values.begin(), a.values.end(), b.values.begin(), b.values.end(),
+                    [](float x, float y) { return same_bits(x, y); });
+}
+
+bool same(const Outcome& a, const Outcome& b) {
+  return same_bits(a.ambient_occlusion, b.ambient_occlusion) &&
+         same_bits(a.sky_view_factor, b.sky_view_factor) && a.direct == b.direct && a.gathered == b.gathered;
+}
+
+Outcome outcome_of(const Transport& transport, const TexelVector& field) {
+  return {transport.ambient_occlusion, transport.sky_view_factor, transport.direct, gather(transport, field)};
+}
+
+/// Builds with one thread and with three.
+template <class Build>
+void compare_threads(const char* name, const TexelVector& field, Build&& build, LargestDifferences& largest,
+                     std::vector<std::string>& faults) {
+  set_thread_count(1);
+  const auto one = build();
+  const Outcome alone = outcome_of(*one, field);
+  set_thread_count(3);
+  const auto other = build();
+  if (!same(alone, outcome_of(*other, field)))
+    faults.push_back(std::string(name) + " depend on the number of threads");
+  set_thread_count(1);
+  const double row_sum = row_sum_error(*one);
+  largest.row_sum = std::max(largest.row_sum, row_sum);
+  if (!(row_sum <= kRowSumBound))
+    faults.push_back(std::string("sky + sum F of ") + name + " is not 1 but off by " +
+                     std::to_string(row_sum));
+}
+
+void compare_operators(const Surface& surface, std::uint64_t seed, LargestDifferences& largest,
+                       std::vector<std::string>& faults) {
+  const TexelVector field = random_field(surface, seed);
+  FormFactorOptions options;
+  options.rays = {64, seed};
+  compare_threads(
+      "rays", field, [&] { return std::make_unique<FormFactors>(build_form_factors(surface, options)); },
+      largest, faults);
+  compare_threads(
+      "exact slices", field,
+      [&] { return std::make_unique<FormFactors>(build_exact_form_factors(surface, 16, options)); }, largest,
+      faults);
+  const HorizonPlan plan{{16, 8, 0.3F}, {8, 8, 0.3F}, 1, 0, 0};
+  compare_threads(
+      "horizon walks", field, [&] { return build_horizon_transport(surface, plan, {}); }, largest, faults);
+  const auto kept = build_horizon_transport(surface, plan, {});
+  const auto walked = build_horizon_transport(surface, plan, {0});
+  if (!same(outcome_of(*kept, field), outcome_of(*walked, field)))
+    faults.push_back("links kept and links walked again gather otherwise");
+}
+
+}  // namespace
+
+std::vector<std::string> compare_solvers(const Surface& surface, std::uint64_t seed,
+                                         LargestDifferences& largest) {
+  std::vector<std::string> faults;
+  compare_traversals(surface, seed, faults);
+  compare_slices_and_rays(surface, seed, largest, faults);
+  compare_sky_walks(surface, largest, faults);
+  compare_operators(surface, seed, largest, faults);
+  return faults;
+}
+
+}  // namespace heightlight
