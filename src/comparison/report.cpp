@@ -88,29 +88,35 @@ double form_error(const ReportInput& input, const std::string& method, const std
   return std::nan("");
 }
 
+/// Names of the closed forms that were tried on the exact AO, as they follow its parameters: "; direct".
+std::vector<std::string> tried_forms(const ReportInput& input, const std::string& quantity) {
+  std::vector<std::string> forms;
+  for (const ComparisonRow& row : input.comparison.rows) {
+    if (row.method != kExactMethod || row.quantity != quantity) continue;
+    forms.push_back(row.parameters.substr(row.parameters.find(';')));
+  }
+  return forms;
+}
+
 /// How much of a total's error is the closed form's: that on the exact AO beside that on each method's.
 void write_forms(std::FILE* file, const ReportInput& input, const ComparedAlbedo& albedo) {
   const std::string quantity = total_quantity(albedo);
-  std::fprintf(file, "## Closed forms, RMSE: %s\n\n| closed form | exact AO |", quantity.c_str());
-  for (const ErrorMap& shown : input.comparison.shown) {
-    std::fprintf(file, " %s (%s) |", shown.method.c_str(), shown.parameters.c_str());
-  }
-  std::fprintf(file, "\n|---|---|");
-  for (std::size_t i = 0; i < input.comparison.shown.size(); ++i) std::fprintf(file, "---|");
+  const std::vector<std::string> forms = tried_forms(input, quantity);
+  std::fprintf(file, "## Closed forms, RMSE: %s\n\n| AO |", quantity.c_str());
+  for (const std::string& form : forms) std::fprintf(file, " %s |", form.substr(2).c_str());
+  std::fprintf(file, "\n|---|");
+  for (std::size_t i = 0; i < forms.size(); ++i) std::fprintf(file, "---|");
   std::fputc('\n', file);
-  const auto write_error = [file](double error) {
-    std::isnan(error) ? std::fprintf(file, " |") : std::fprintf(file, " %.4f |", error);
-  };
-  for (const ComparisonRow& row : input.comparison.rows) {
-    if (row.method != kExactMethod || row.quantity != quantity) continue;
-    const std::string form = row.parameters.substr(row.parameters.find(';'));  // "; name"
-    std::fprintf(file, "| %s |", form.substr(2).c_str());
-    write_error(row.error.rmse);
-    for (const ErrorMap& shown : input.comparison.shown) {
-      write_error(form_error(input, shown.method, shown.parameters + form, quantity));
+  const auto write_line = [&](const std::string& method, const std::string& parameters) {
+    std::fprintf(file, "| %s (%s) |", method.c_str(), parameters.c_str());
+    for (const std::string& form : forms) {
+      const double error = form_error(input, method, parameters + form, quantity);
+      std::isnan(error) ? std::fprintf(file, " |") : std::fprintf(file, " %.4f |", error);
     }
     std::fputc('\n', file);
-  }
+  };
+  write_line(kExactMethod, std::to_string(input.reference.azimuths) + " azimuths");
+  for (const ErrorMap& shown : input.comparison.shown) write_line(shown.method, shown.parameters);
   std::fputc('\n', file);
 }
 

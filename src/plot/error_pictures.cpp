@@ -115,7 +115,7 @@ void plot_error_sheet(const std::filesystem::path& png, const std::vector<ErrorM
              << "\nset bmargin at screen " << (top - kPanelHeight + 8) / height << "\nset title "
              << gnuplot_quoted(maps[i].method) << ".\"\\n\"." << gnuplot_quoted(maps[i].parameters)
              << ".\"\\n"
-             << rmse << "\" noenhanced offset 0,-0.6 font ',9'\n"
+             << rmse << "\" noenhanced offset 0,-0.6 font ',8'\n"
              << "set xrange [-0.5:" << thin.width - 0.5 << "]\nset yrange [" << thin.height - 0.5
              << ":-0.5]\n"
              << "plot $map" << i << " matrix with image\nunset colorbox\n";

@@ -91,7 +91,7 @@ void send_ranges(Gnuplot& script, const std::vector<ComparisonRow>& rows, const 
     y_high = any ? std::max(y_high, y) : y;
     any = true;
   }
-  script << "set xrange [" << x_low / 1.5 << ':' << x_high * 1.5 << "]\nset yrange [" << y_low / 1.5 << ':'
+  script << "set xrange [" << x_low / 30 << ':' << x_high * 1.5 << "]\nset yrange [" << y_low / 1.5 << ':'
          << y_high * 1.5 << "]\n";
 }
 

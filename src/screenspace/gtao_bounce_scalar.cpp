@@ -27,6 +27,7 @@ void gather_slices_scalar(const BounceSlicePass& pass, int row, SeenSums& sums) 
         const float c = -n_z * horizon;
         const float open = slice_irradiance(c, n_z, horizon);
         float above = open;
+        float before = pass.radiance[at];
         for (const SliceSample& sample : slice.sides[side]) {
           float slope = 0;
           float radiance = 0;
@@ -37,11 +38,13 @@ void gather_slices_scalar(const BounceSlicePass& pass, int row, SeenSums& sums) 
             slope += tap.weight * (depth.heights[there] - depth.heights[at]);
             radiance += tap.weight * sample.distance * pass.radiance[there];
           }
-          if (!(slope > horizon)) continue;
-          const float rest = slice_irradiance(c, n_z, slope);
-          sums.light[j] += (above - rest) * radiance;
-          above = rest;
-          horizon = slope;
+          if (slope > horizon) {
+            const float rest = slice_irradiance(c, n_z, slope);
+            sums.light[j] += (above - rest) * 0.5F * (before + radiance);
+            above = rest;
+            horizon = slope;
+          }
+          before = radiance;
         }
         sums.hidden[j] += open - above;
       }

@@ -1,5 +1,7 @@
 // The arithmetic is gtao_bounce_scalar.cpp's.
 
+#include <utility>
+
 #include "screenspace/gtao_bounce_kernel.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -12,15 +14,20 @@
 HWY_BEFORE_NAMESPACE();
 namespace heightlight::HWY_NAMESPACE {
 
-/// Radiance of a sample as each receiver sees it.
+/// Radiance of a sample as each receiver sees it; their own where there is no sample.
 template <int kTaps>
 HWY_INLINE Lanes sample_radiance(const BounceSlicePass& pass, const Receivers& at,
-                                 const SliceSample& sample) {
+                                 const SliceSample* sample) {
   Lanes radiance;
+  if (!sample) {
+    const float* here = pass.radiance.data() + pass.depth.index(at.row, at.column);
+    for (std::size_t v = 0; v < kBunch; ++v) radiance[v] = hn::LoadU(kF, here + v * hn::Lanes(kF));
+    return radiance;
+  }
   for (VF& lane : radiance) lane = hn::Zero(kF);
   for (std::size_t i = 0; i < kTaps; ++i) {
-    const float* there = pass.radiance.data() + tap_index(pass.depth, at, sample.taps[i]);
-    const VF share = hn::Set(kF, sample.taps[i].weight * sample.distance);
+    const float* there = pass.radiance.data() + tap_index(pass.depth, at, sample->taps[i]);
+    const VF share = hn::Set(kF, sample->taps[i].weight * sample->distance);
     for (std::size_t v = 0; v < kBunch; ++v) {
       radiance[v] = hn::MulAdd(share, hn::LoadU(kF, there + v * hn::Lanes(kF)), radiance[v]);
     }
@@ -39,17 +46,21 @@ HWY_INLINE void gather_side(const BounceSlicePass& pass, const std::vector<Slice
   }
   Lanes horizon = tangent;
   Lanes above = open;
+  const SliceSample* before = nullptr;
   for (const SliceSample& sample : side) {
+    const SliceSample* last = std::exchange(before, &sample);
     const Lanes slopes = sample_slopes<kTaps>(pass.depth, at, sample);
     bool any = false;
     for (std::size_t v = 0; v < kBunch; ++v) any |= !hn::AllFalse(kF, hn::Gt(slopes[v], horizon[v]));
     if (!any) continue;
-    const Lanes radiance = sample_radiance<kTaps>(pass, at, sample);
+    const Lanes near = sample_radiance<kTaps>(pass, at, last);
+    const Lanes far = sample_radiance<kTaps>(pass, at, &sample);
     for (std::size_t v = 0; v < kBunch; ++v) {
       const auto rises = hn::Gt(slopes[v], horizon[v]);
       if (hn::AllFalse(kF, rises)) continue;
       const VF rest = slice_irradiance(c[v], at.normal_z[v], slopes[v]);
-      const VF more = hn::Mul(hn::Sub(above[v], rest), radiance[v]);
+      const VF mean = hn::Mul(hn::Set(kF, 0.5F), hn::Add(near[v], far[v]));
+      const VF more = hn::Mul(hn::Sub(above[v], rest), mean);
       light[v] = hn::Add(light[v], hn::IfThenElseZero(rises, more));
       above[v] = hn::IfThenElse(rises, rest, above[v]);
       horizon[v] = hn::IfThenElse(rises, slopes[v], horizon[v]);

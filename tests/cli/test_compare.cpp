@@ -64,7 +64,7 @@ TEST_CASE("compare writes its table, report, plots and pictures, and errors that
   CHECK(report.find("nan") == std::string::npos);
 }
 
-TEST_CASE("compare takes a map with holes, an image as albedo, and a level map", "[cli][compare]") {
+TEST_CASE("compare takes a map with holes, an image as albedo, and a level map", "[cli][compare][slow]") {
   const ScratchFolder folder;
   std::string grid = "ncols 12\nnrows 10\nxllcorner 0\nyllcorner 0\ncellsize 10\nNODATA_value -9\n";
   for (int i = 0; i < 120; ++i) grid += i % 17 == 3 ? "-9 " : std::to_string(i * i % 23) + " ";
