@@ -205,11 +205,39 @@ constexpr SeenSkyViewFactor<Real> seen_from_total(SkyViewFactor<Real> sky, Real 
   return SeenSkyViewFactor<Real>(a >= 1 || brought >= missing ? Real{1} : clamp_share(brought / missing));
 }
 
-/// Guesses of n, as fitted by a search over 36 map × relief cases. Each keeps n in [0, 1].
+/// The albedo at which an n that is stored as a second channel is best solved for: there its error vanishes,
+/// and is least from 0.3 to 0.9 all together.
+constexpr double kSeenAlbedo = 0.7;
+
+/// What a total may be.
+template <class Real>
+struct TotalBounds {
+  Real low;
+  Real high;
+};
+
+/// Bounds of the total at `albedo` that hold on any surface, from A and the total at another albedo ρ₀, 0 <
+/// ρ₀ < 1. What bounces bring, f(ρ) = Σ_{b ≥ 1} E_b ρ^b, has no negative E_b and f(1) = 1 − A. With q =
+/// f(ρ₀)/f(1), the mean of ρ₀^b weighted by E_b, Jensen's inequality for ρ^b = (ρ₀^b)^γ, γ = ln ρ/ln ρ₀,
+/// gives q^γ on one side; on the other the chord of that power from 0 to ρ₀ gives q ρ/ρ₀. bounced_total lies
+/// between them too.
+template <class Real>
+TotalBounds<Real> bound_total(SkyViewFactor<Real> sky, Real total, Real total_albedo, Real albedo) {
+  assert(total_albedo > 0 && total_albedo < 1);
+  const Real a = clamp_share(sky.value);
+  if (a >= 1) return {a, a};
+  const Real q = std::clamp((total - a) / (1 - a), Real{0}, total_albedo);
+  const Real by_jensen = albedo <= 0 ? Real{0} : std::pow(q, std::log(albedo) / std::log(total_albedo));
+  const Real by_chord = q * albedo / total_albedo;
+  return {a + (1 - a) * std::min(by_jensen, by_chord), a + (1 - a) * std::max(by_jensen, by_chord)};
+}
+
+/// Guesses of n, as fitted to the maps of plots/make-models. Each keeps n in [0, 1].
 struct SeenConstants {
-  double offset = 0.06, slope = 0.80;                                 ///< from A alone
-  double map_offset = 0.02, map_slope = 0.55, map_curvature = -0.56;  ///< from A and the map's s
-  double blur_slope = 0.32;                                           ///< from A and its blur
+  double offset = 0.07, slope = 0.82;                                  ///< from A alone
+  double map_offset = 0.012, map_slope = 0.62, map_curvature = -0.17;  ///< from A and the map's s
+  double deep_slope = 0.69, deep_bend = -0.65;                         ///< from A and the map's t
+  double blur_offset = 0.013, blur_slope = 0.32;                       ///< from A and its blur
 };
 
 /// n from A alone: offset + slope A.
@@ -230,13 +258,40 @@ constexpr SeenSkyViewFactor<Real> guess_seen_on_map(SkyViewFactor<Real> sky, See
       d * (static_cast<Real>(constants.map_slope) + d * static_cast<Real>(constants.map_curvature))));
 }
 
-/// n from A and its blurred neighbourhood W = blur_seen(…): W + slope (A − W).
+/// What a map's n and A say about t, the n of its deepest places: sums over its texels weighted by w =
+/// (∂G/∂n)² at albedo ½, so that errors of n count as what they do to the total.
+struct SeenMoments {
+  double weight = 0;    ///< Σ w
+  double sky = 0;       ///< Σ w A
+  double sky_sky = 0;   ///< Σ w A²
+  double seen = 0;      ///< Σ w n
+  double seen_sky = 0;  ///< Σ w n A
+
+  void add(SkyViewFactor<double> sky_view_factor, SeenSkyViewFactor<double> n);
+};
+
+/// t, one number per map, from its simulation: the one with which guess_seen_in_deep comes nearest to the
+/// map's own n, in least squares. 1 where nothing is occluded.
+SeenSkyViewFactor<double> tune_deep_seen(const SeenMoments& moments, const SeenConstants& constants = {});
+
+/// n from A and t = tune_deep_seen(…): t + (slope + bend t) A.
+template <class Real>
+constexpr SeenSkyViewFactor<Real> guess_seen_in_deep(SkyViewFactor<Real> sky, SeenSkyViewFactor<Real> deep,
+                                                     const SeenConstants& constants = {}) {
+  const Real t = deep.value;
+  return SeenSkyViewFactor<Real>(
+      clamp_share(t + (static_cast<Real>(constants.deep_slope) + static_cast<Real>(constants.deep_bend) * t) *
+                          clamp_share(sky.value)));
+}
+
+/// n from A and its blurred neighbourhood W = blur_seen(…): offset + W + slope (A − W).
 template <class Real>
 constexpr SeenSkyViewFactor<Real> guess_seen_by_blur(SkyViewFactor<Real> sky, SeenSkyViewFactor<Real> blurred,
                                                      const SeenConstants& constants = {}) {
   const Real w = clamp_share(blurred.value);
   return SeenSkyViewFactor<Real>(
-      clamp_share(w + static_cast<Real>(constants.blur_slope) * (clamp_share(sky.value) - w)));
+      clamp_share(static_cast<Real>(constants.blur_offset) + w +
+                  static_cast<Real>(constants.blur_slope) * (clamp_share(sky.value) - w)));
 }
 
 /// Everything that a closed form may want to know of a texel.
@@ -244,12 +299,13 @@ struct ModelInputs {
   AmbientOcclusion<double> ambient_occlusion{0};
   SkyViewFactor<double> sky_view_factor{0};
   SeenSkyViewFactor<double> expected_seen{0};  ///< s, one number per map
+  SeenSkyViewFactor<double> deep_seen{0};      ///< t, one number per map
   SeenSkyViewFactor<double> blurred{0};        ///< W, the blurred sky view factor
   SeenSkyViewFactor<double> seen{0};           ///< n, stored as a second channel
 };
 
 /// What a closed form needs beside its AO.
-enum class ExtraInput { none, expected_seen, blurred, seen };
+enum class ExtraInput { none, expected_seen, deep_seen, blurred, seen };
 
 /// One closed form of the list.
 struct ClosedForm {
@@ -276,9 +332,12 @@ SeenSkyViewFactor<double> expected_seen(const Map& sky_view_factor, const Surfac
 SeenSkyViewFactor<double> measured_seen(const Map& sky_view_factor, const TexelVector& first_bounce,
                                         const Surface& surface);
 
+/// The blur with which n is guessed best on the maps of plots/make-models, in texels.
+constexpr double kBlurSigma = 1.5;
+
 /// W: the sky view factor averaged by a Gaussian of `sigma` texels > 0 (cut at 3 σ; wrapped where the map
 /// tiles, ended at its edges where not) with weights 1 − A, since occluded places are what is seen. From the
 /// sky view factor alone. The plain A where nothing near is occluded; NaN where missing.
-Map blur_seen(const Map& sky_view_factor, bool tiles, double sigma = 3);
+Map blur_seen(const Map& sky_view_factor, bool tiles, double sigma = kBlurSigma);
 
 }  // namespace heightlight

@@ -17,6 +17,14 @@ namespace heightlight {
 /// missing.
 using TexelVector = Eigen::VectorXd;
 
+/// Diffuse reflectance in [0, 1]: one channel where it is grey, else R, G, B.
+struct Albedo {
+  std::vector<double> constant;      ///< per channel; empty where it varies over the map
+  std::vector<TexelVector> varying;  ///< per channel; empty where it is constant
+
+  std::size_t channels() const { return constant.size() + varying.size(); }
+};
+
 /// The operator F that carries irradiance from bounce to bounce, and the sky's share of every receiver:
 /// sky_view_factor_i + Σ_j F_ij = 1. Whatever finds visibility ends in one of these; bounces don't know
 /// which.
@@ -120,6 +128,7 @@ std::unique_ptr<Transport> build_horizon_transport(const Surface& surface, const
 struct PlannedTransport {
   HorizonPlan plan;
   std::unique_ptr<Transport> transport;
+  SkyMoments moments;  ///< those that were wanted
 };
 
 /// What a plan is to reach.
@@ -128,11 +137,12 @@ struct HorizonGoal {
   bool total_only = false;  ///< A may err by more, as long as the total does not
   int azimuths = 0;         ///< > 0: those of the sky, fixed
   std::uint64_t seed = 1;   ///< of the sample of receivers
+  double sky_share = 1;     ///< of the error, that A may have: less where finer things hang on its walk
 };
 
 /// Chooses a plan by trying ways of walking on a sample of receivers against exact walks; then builds.
 PlannedTransport plan_horizon_transport(const Surface& surface, const HorizonGoal& goal,
-                                        const HorizonOptions& options);
+                                        const HorizonOptions& options, const SkyWanted& wanted = {});
 
 /// What a finished solution errs by, found on a few hundred receivers by exact walks (which share no code
 /// with the fast ones): A against their sky, the total against one exact gather of the same light. What the
@@ -197,7 +207,9 @@ struct TotalIrradiance {
   double change = 0;  ///< RMS over the receivers of what the last of them changed, the most of any albedo
 };
 
-/// Bounces until one more changes no total by more than `tolerance` RMS, and 64 at most.
+/// Bounces until one more changes no total by more than `tolerance` RMS, and 64 at most. Each albedo's total
+/// ends with the bounce that is enough for it, so that it is the same, to the last bit, whatever others are
+/// asked for beside it.
 TotalIrradiance solve_totals(const Transport& transport, const std::vector<double>& albedos, double tolerance,
                              bool quiet = true);
 

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <vector>
 
+#include "heightlight/image.h"
 #include "heightlight/surface.h"
 
 namespace heightlight {
@@ -26,6 +29,34 @@ struct WalkOptions {
 
 /// Throws UsageError, naming `--azimuths`, unless the number is even and in its range.
 void check_azimuths(int azimuths);
+
+/// What horizon walks are to find of the sky beside its shares α and A.
+struct SkyWanted {
+  bool first = false;   ///< SkyMoments::first, of which bent normals and cones are made
+  bool second = false;  ///< SkyMoments::second, which with the others makes spherical harmonics of order 2
+};
+
+/// Moments (1/π) ∫ V f(ω) cosθ dω of what a receiver sees of the sky, in world axes: V is 1 toward the sky
+/// and 0 toward the surface, θ counts from the normal. A is that of f = 1. Empty unless wanted; NaN where the
+/// sample is missing.
+struct SkyMoments {
+  Image<Eigen::Vector3f> first;        ///< of ω
+  Image<std::array<float, 5>> second;  ///< of x² − y², xy, z², xz, yz
+};
+
+/// How what is near a receiver counts for more than what is far: a direction in which the surface stands at
+/// distance d counts as open by the share μ(d) (file 002, section 2), which is 1 from the reach D on.
+enum class Falloff {
+  none,    ///< 0: all that stands nearer than D occludes wholly
+  linear,  ///< d/D
+  root     ///< √(d/D)
+};
+
+/// As far as occluders count.
+struct Reach {
+  double distance = 0;  ///< D > 0, world units, in space (not on the map)
+  Falloff falloff = Falloff::none;
+};
 
 /// A place on the surface: a point of the cell whose upper left vertex is `cell` (index into the height
 /// image). `across` and `down` are its coordinates inside the cell, in [0, 1]; across ≥ down is the upper

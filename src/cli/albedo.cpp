@@ -14,6 +14,24 @@
 namespace heightlight {
 namespace {
 
+/// IEC 61966-2-1, encoded and result in [0, 1].
+double srgb_to_linear(double encoded) {
+  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+}
+
+/// "#b5533c", as pictures have it: linear R, G, B; nothing where the text is no such colour.
+std::optional<std::vector<double>> parse_picture_colour(const std::string& text) {
+  if (text.size() != 7 || text[0] != '#' ||
+      text.find_first_not_of("0123456789abcdefABCDEF", 1) != text.npos) {
+    return std::nullopt;
+  }
+  std::vector<double> values;
+  for (std::size_t at = 1; at < text.size(); at += 2) {
+    values.push_back(srgb_to_linear(std::stoi(text.substr(at, 2), nullptr, 16) / 255.0));
+  }
+  return values;
+}
+
 /// "0.5" or "0.6,0.3,0.2"; nothing where the text is no list of numbers.
 std::optional<std::vector<double>> parse_constants(const std::string& text) {
   std::vector<double> values;
@@ -37,11 +55,6 @@ std::vector<double> check_constants(const std::string& text, std::vector<double>
   return values;
 }
 
-/// IEC 61966-2-1, encoded and result in [0, 1].
-double srgb_to_linear(double encoded) {
-  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
-}
-
 /// One channel as reflectance.
 TexelVector decode(const StoredImage& image, std::size_t channel) {
   const std::size_t stride = image.channels.size();
@@ -60,14 +73,14 @@ TexelVector decode(const StoredImage& image, std::size_t channel) {
       image.samples);
 }
 
-Albedo read_albedo_file(const std::string& path, const Surface& surface, std::uint64_t memory_limit) {
+Albedo read_albedo_file(const std::string& path, const Heightmap& map, std::uint64_t memory_limit) {
   const FileFormat format = recognise_format(path);
   if (format == FileFormat::esri_grid) throw file_error(path, "an Esri grid holds no albedo; use an image");
   const StoredImage image = read_image(path, format, memory_limit);
-  if (image.width != surface.width() || image.height != surface.height()) {
+  if (image.width != map.height.width || image.height != map.height.height) {
     throw file_error(path, "the albedo is " + std::to_string(image.width) + " × " +
                                std::to_string(image.height) + ", the heightmap " +
-                               std::to_string(surface.width()) + " × " + std::to_string(surface.height()));
+                               std::to_string(map.height.width) + " × " + std::to_string(map.height.height));
   }
   Albedo albedo;
   const std::size_t channels = image.channels.size() >= 3 ? 3 : 1;  // an alpha channel follows one or three
@@ -86,9 +99,10 @@ Albedo read_albedo_file(const std::string& path, const Surface& surface, std::ui
 
 }  // namespace
 
-Albedo read_albedo(const std::string& text, const Surface& surface, std::uint64_t memory_limit) {
+Albedo read_albedo(const std::string& text, const Heightmap& map, std::uint64_t memory_limit) {
+  if (auto colour = parse_picture_colour(text)) return {check_constants(text, std::move(*colour)), {}};
   if (auto constants = parse_constants(text)) return {check_constants(text, std::move(*constants)), {}};
-  return read_albedo_file(text, surface, memory_limit);
+  return read_albedo_file(text, map, memory_limit);
 }
 
 }  // namespace heightlight

@@ -39,7 +39,9 @@ int run_command_line(int argument_count, const char* const* arguments) {
   app.set_version_flag("--version", HEIGHTLIGHT_VERSION);
   app.require_subcommand(1);
   add_simulate_command(app);
+  add_bake_command(app);
   add_compare_command(app);
+  add_fit_command(app);
   add_synth_command(app);
   add_info_command(app);
   add_dataset_command(app);

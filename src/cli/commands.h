@@ -9,7 +9,9 @@ namespace heightlight {
 void add_info_command(CLI::App& app);
 void add_synth_command(CLI::App& app);
 void add_simulate_command(CLI::App& app);
+void add_bake_command(CLI::App& app);
 void add_dataset_command(CLI::App& app);
 void add_compare_command(CLI::App& app);
+void add_fit_command(CLI::App& app);
 
 }  // namespace heightlight

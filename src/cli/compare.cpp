@@ -74,7 +74,7 @@ void compare(CompareOptions& options) {
   const std::uint64_t link_memory = memory_for_links(options, loaded.map);
   const Surface surface = build_surface(std::move(loaded.map));
   const std::vector<ComparedAlbedo> albedos =
-      compared_albedos(read_albedo(options.albedo, surface, options.run.memory), surface);
+      compared_albedos(read_albedo(options.albedo, surface.map, options.run.memory), surface);
   StagedFolder folder(options.folder);
 
   const Stopwatch watch;

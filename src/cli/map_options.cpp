@@ -33,9 +33,12 @@ Spacing parse_spacing(const std::string& text) {
 }  // namespace
 
 void add_map_options(CLI::App& command, MapOptions& options) {
-  LoadOptions& load = options.load;
   command.add_option("MAP", options.path, "heightmap: PNG, EXR, TIFF, JPEG, TGA, HDR or Esri ASCII grid")
       ->required();
+  add_load_options(command, options.load);
+}
+
+void add_load_options(CLI::App& command, LoadOptions& load) {
   command.add_option("--relief", load.relief, "peak-to-valley height in world units (images: width / 10)");
   auto* width = command.add_option("--width", load.width, "extent of the columns in world units (1)");
   command

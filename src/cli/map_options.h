@@ -15,7 +15,10 @@ struct MapOptions {
   LoadOptions load;
 };
 
-/// Adds MAP and `--relief --width --texel --boundary --no-data --channel --shrink --invert`.
+/// Adds `--relief --width --texel --boundary --no-data --channel --shrink --invert`.
+void add_load_options(CLI::App& command, LoadOptions& load);
+
+/// Adds MAP and what add_load_options adds.
 void add_map_options(CLI::App& command, MapOptions& options);
 
 /// The options that say how a command runs.

@@ -128,7 +128,7 @@ Simulation simulate_map(const SimulateOptions& options) {
   simulation.height = loaded.map.height.height;
   const std::uint64_t link_memory = memory_for_links(options, loaded.map);
   const Surface surface = build_surface(std::move(loaded.map));
-  const Albedo albedo = read_albedo(options.albedo, surface, options.run.memory);
+  const Albedo albedo = read_albedo(options.albedo, surface.map, options.run.memory);
   StagedFolder folder(options.folder);
   seconds.load = watch.lap();
 
@@ -138,6 +138,7 @@ Simulation simulate_map(const SimulateOptions& options) {
   const SolvedBounces solved = solve_bounces(*transport, surface, albedo, options,
                                              simulation.plan.has_value(), sink, simulation.energy);
   simulation.seen = sink.seen();
+  simulation.seen.deep = solved.deep_seen;
   seconds.curves = sink.seconds();
   seconds.bounces = watch.lap() - seconds.curves;
   estimate_errors(options, surface, *transport, solved.totals[0], albedo, simulation);

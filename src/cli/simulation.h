@@ -52,6 +52,7 @@ struct EnergyCheck {
 /// The mean sky view factor of what texels see, weighted by how much of it they see.
 struct SeenSky {
   double expected = 1;  ///< by reciprocity, from the sky view factor and the normals alone
+  double deep = 1;      ///< t of the models: what the deepest places see, tuned to the whole map
   double mean = 1;  ///< as the first bounce brings it; the two part where samples don't resolve the surface
 };
 

@@ -84,7 +84,8 @@ void write_summary(const std::filesystem::path& path, const SimulateOptions& opt
   summary["albedo"] = albedo.varying.empty() ? Json(albedo.constant) : Json(options.albedo);
   summary["energy"] = describe_energy(simulation.energy);
   summary["seen"] = {{"expected_sky_view_factor", simulation.seen.expected},
-                     {"mean_sky_view_factor", simulation.seen.mean}};
+                     {"mean_sky_view_factor", simulation.seen.mean},
+                     {"deep_sky_view_factor", simulation.seen.deep}};
   summary["time_s"] = describe_times(simulation.seconds);
   summary["memory"] = {{"peak_bytes", peak_memory()}};
   summary["threads"] = thread_count();

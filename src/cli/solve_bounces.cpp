@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "heightlight/models.h"
+
 namespace heightlight {
 namespace {
 
@@ -12,6 +14,19 @@ Equilibrium find_tail(const Transport& transport, const BounceSeries& series, do
                       bool by_conservation, bool quiet) {
   if (!by_conservation) return solve_tail(transport, series, albedo, quiet);
   return {conserve_tail(transport, series.sum, series.last, series.bounces, albedo), 0, 0};
+}
+
+/// t, from what is seen at kSeenAlbedo, the last of the series' albedos.
+double find_deep_seen(const Transport& transport, const BounceSeries& series) {
+  SeenMoments moments;
+  for (Eigen::Index i = 0; i < series.sum.size(); ++i) {
+    const SkyViewFactor<double> sky(double{transport.sky_view_factor.values[static_cast<std::size_t>(i)]});
+    if (std::isnan(sky.value)) continue;
+    const double total =
+        series.weighted.back()[i] + conserve_tail(series.sum[i], series.last[i], series.bounces, kSeenAlbedo);
+    moments.add(sky, seen_from_total(sky, total, kSeenAlbedo));
+  }
+  return tune_deep_seen(moments).value;
 }
 
 /// Total irradiance of all bounces, one vector per channel of the albedo.
@@ -67,11 +82,14 @@ SolvedBounces solve_bounces(const Transport& transport, const Surface& surface, 
                             EnergyCheck& energy) {
   const bool quiet = options.run.quiet;
   const auto visit = [&sink](int b, const TexelVector& irradiance) { sink.take(b, irradiance); };
-  const BounceSeries series = bounce(transport, surface, options.bounces, albedo.constant, visit, quiet);
+  std::vector<double> albedos = albedo.constant;
+  albedos.push_back(kSeenAlbedo);
+  const BounceSeries series = bounce(transport, surface, options.bounces, albedos, visit, quiet);
   const Equilibrium tail = find_tail(transport, series, 1, by_conservation, quiet);
   check_energy(transport, series, tail, energy);
   sink.take_tail(tail.irradiance);
-  return {tail.irradiance, find_totals(transport, series, albedo, by_conservation, energy, quiet)};
+  return {tail.irradiance, find_totals(transport, series, albedo, by_conservation, energy, quiet),
+          find_deep_seen(transport, series)};
 }
 
 }  // namespace heightlight

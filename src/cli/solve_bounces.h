@@ -12,6 +12,7 @@ namespace heightlight {
 struct SolvedBounces {
   TexelVector tail;                 ///< after the last bounce kept apart, at ρ = 1
   std::vector<TexelVector> totals;  ///< of all bounces, one per channel of the albedo
+  double deep_seen = 1;             ///< t of the models
 };
 
 /// Bounces at ρ = 1, each handed to `sink`, then the tail and the totals: solved for where links are exact,

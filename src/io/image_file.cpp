@@ -99,4 +99,63 @@ void write_float_image(const std::filesystem::path& path,
   });
 }
 
+namespace {
+
+OIIO::TypeDesc stored_type(SampleType type) {
+  switch (type) {
+    case SampleType::uint8:
+      return OIIO::TypeDesc::UINT8;
+    case SampleType::uint16:
+      return OIIO::TypeDesc::UINT16;
+    case SampleType::half:
+      return OIIO::TypeDesc::HALF;
+    case SampleType::real:
+      break;
+  }
+  return OIIO::TypeDesc::FLOAT;
+}
+
+template <class Level>
+bool write_levels(OIIO::ImageOutput& output, int first, int last, OIIO::TypeDesc type,
+                  const std::vector<float>& samples) {
+  std::vector<Level> levels(samples.size());
+  std::transform(samples.begin(), samples.end(), levels.begin(),
+                 [](float sample) { return static_cast<Level>(sample); });
+  return output.write_scanlines(first, last, 0, type, levels.data());
+}
+
+}  // namespace
+
+void write_texture(const std::filesystem::path& path, const TextureLayout& layout, const FillRows& fill) {
+  const std::string extension = path.extension().string();
+  const char* format = extension == ".png" ? "png" : extension == ".exr" ? "openexr" : "tiff";
+  const OIIO::TypeDesc type = stored_type(layout.type);
+  OIIO::ImageSpec spec(layout.width, layout.height, static_cast<int>(layout.channels.size()), type);
+  spec.channelnames = layout.channels;
+  spec.alpha_channel = -1;
+  spec.attribute("oiio:UnassociatedAlpha", 1);
+  spec.attribute("compression", "zip");
+  spec.attribute("png:compressionLevel", 4);  // a tenth larger than the default, in a third of the time
+  spec.attribute("DateTime", "1970:01:01 00:00:00");
+  for (const auto& [name, text] : layout.attributes) spec.attribute(name, text);
+  write_oiio(path, format, spec, [&](OIIO::ImageOutput& output) {
+    constexpr int kRowsAtATime = 64;  // a multiple of the 16 rows that EXR compresses together
+    std::vector<float> samples;
+    for (int row = 0; row < layout.height; row += kRowsAtATime) {
+      const int rows = std::min(kRowsAtATime, layout.height - row);
+      samples.resize(static_cast<std::size_t>(rows) * static_cast<std::size_t>(layout.width) *
+                     layout.channels.size());
+      fill(row, rows, samples.data());
+      const bool written =
+          layout.type == SampleType::uint8
+              ? write_levels<std::uint8_t>(output, row, row + rows, type, samples)
+          : layout.type == SampleType::uint16
+              ? write_levels<std::uint16_t>(output, row, row + rows, type, samples)
+              : output.write_scanlines(row, row + rows, 0, OIIO::TypeDesc::FLOAT, samples.data());
+      if (!written) return false;
+    }
+    return true;
+  });
+}
+
 }  // namespace heightlight

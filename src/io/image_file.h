@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -28,6 +29,25 @@ void write_png16(const std::filesystem::path& path, const Image<std::uint16_t>& 
 void write_float_image(const std::filesystem::path& path,
                        const std::vector<std::pair<std::string, const Map*>>& channels,
                        const std::vector<std::pair<std::string, std::string>>& attributes = {});
+
+/// How samples are stored.
+enum class SampleType { uint8, uint16, half, real };
+
+/// What a texture file is to hold.
+struct TextureLayout {
+  int width = 0;
+  int height = 0;
+  std::vector<std::string> channels;  ///< "Y", or "R", "G", …; channels named "A" are no coverage
+  SampleType type = SampleType::uint16;
+  std::vector<std::pair<std::string, std::string>> attributes;  ///< text, where the format has it
+};
+
+/// Fills rows [first, first + count) with samples, channels interleaved: whole levels for integers.
+using FillRows = std::function<void(int first, int count, float* samples)>;
+
+/// PNG, EXR or TIFF by extension, some rows at a time. Values are stored as they are: linear, no gamma, alpha
+/// not multiplied in. Floats become half by rounding to the nearest.
+void write_texture(const std::filesystem::path& path, const TextureLayout& layout, const FillRows& fill);
 
 /// SHA-256 of a file's bytes, hexadecimal. Throws Error.
 std::string sha256_of_file(const std::filesystem::path& path);

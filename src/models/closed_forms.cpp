@@ -31,6 +31,11 @@ const std::vector<ClosedForm>& closed_forms() {
          return bounced_total(in.sky_view_factor, guess_seen_on_map(in.sky_view_factor, in.expected_seen),
                               albedo);
        }},
+      {"seen_from_deep", "G(A, n, rho), n from A and t", "here", kSky, ExtraInput::deep_seen,
+       [](Inputs in, double albedo) -> Result {
+         return bounced_total(in.sky_view_factor, guess_seen_in_deep(in.sky_view_factor, in.deep_seen),
+                              albedo);
+       }},
       {"seen_from_blur", "G(A, n, rho), n from A and its blur", "here", kSky, ExtraInput::blurred,
        [](Inputs in, double albedo) -> Result {
          return bounced_total(in.sky_view_factor, guess_seen_by_blur(in.sky_view_factor, in.blurred), albedo);

@@ -12,16 +12,23 @@ using ResidualFunction = std::function<void(const Eigen::VectorXd& parameters, E
 
 struct LeastSquaresFit {
   Eigen::VectorXd parameters;
-  Eigen::MatrixXd covariance;  ///< σ² (JᵀJ)⁻¹ with σ² = Σ r²/(residuals − parameters)
+  Eigen::MatrixXd covariance;  ///< allows for residuals of one group that err together
   double rms = 0;              ///< √(Σ r²/Σ w), given the sum of the weights
 };
 
-/// Minimises Σ r² from `start` by Levenberg and Marquardt's method (Eigen), with forward differences. Throws
-/// Error naming `what` where residuals are not more than parameters, where it does not converge within 400
-/// steps a parameter or leaves the finite, and where the data leave a parameter undetermined (JᵀJ is
-/// singular).
+/// How residuals belong together.
+struct ResidualShape {
+  Eigen::Index groups = 0;      ///< measurements that err independently of each other
+  Eigen::Index group_size = 1;  ///< residuals of each, which may err together: consecutive in r
+  double weight_sum = 1;        ///< Σ w, over all residuals
+};
+
+/// Minimises Σ r² from `start` by Levenberg and Marquardt's method (Eigen), with forward differences. The
+/// covariance is (JᵀJ)⁻¹ (Σ_g J_gᵀ r_g r_gᵀ J_g) (JᵀJ)⁻¹ over the groups g, times groups/(groups −
+/// parameters). Throws Error naming `what` where groups are not more than parameters, where it does not
+/// converge within 400 steps a parameter or leaves the finite, and where the data leave a parameter
+/// undetermined (JᵀJ is singular).
 LeastSquaresFit fit_least_squares(const std::string& what, const Eigen::VectorXd& start,
-                                  Eigen::Index residual_count, double weight_sum,
-                                  const ResidualFunction& residuals);
+                                  const ResidualShape& shape, const ResidualFunction& residuals);
 
 }  // namespace heightlight

@@ -86,6 +86,29 @@ SeenSkyViewFactor<double> measured_seen(const Map& sky_view_factor, const TexelV
   return SeenSkyViewFactor<double>(weights > 0 ? sum / weights : 1);
 }
 
+void SeenMoments::add(SkyViewFactor<double> sky_view_factor, SeenSkyViewFactor<double> n) {
+  const double a = clamp_share(sky_view_factor.value);
+  constexpr double kAlbedo = 0.5;
+  const double rest = 1 - kAlbedo * (1 - n.value);
+  const double slope = (1 - a) * kAlbedo * (1 - kAlbedo) / (rest * rest);  // ∂G/∂n
+  const double w = slope * slope;
+  weight += w;
+  sky += w * a;
+  sky_sky += w * a * a;
+  seen += w * n.value;
+  seen_sky += w * n.value * a;
+}
+
+/// Σ w (n − slope A − t (1 + bend A))² is least at t = Σ w (n − slope A)(1 + bend A)/Σ w (1 + bend A)².
+SeenSkyViewFactor<double> tune_deep_seen(const SeenMoments& moments, const SeenConstants& constants) {
+  const double slope = constants.deep_slope;
+  const double bend = constants.deep_bend;
+  const double above =
+      moments.seen + bend * moments.seen_sky - slope * (moments.sky + bend * moments.sky_sky);
+  const double below = moments.weight + bend * (2 * moments.sky + bend * moments.sky_sky);
+  return SeenSkyViewFactor<double>(below > 0 ? clamp_share(above / below) : 1);
+}
+
 Map blur_seen(const Map& sky_view_factor, bool tiles, double sigma) {
   Image<double> weights(sky_view_factor.width, sky_view_factor.height);
   Image<double> weighted = weights;

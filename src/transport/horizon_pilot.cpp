@@ -71,7 +71,9 @@ HorizonPilot::HorizonPilot(const Surface& surface, std::uint64_t seed)
 
 std::vector<float> HorizonPilot::walk_sky_of(const WalkOptions& options) {
   std::vector<AzimuthTable> azimuths;
-  for (int k = 0; k < options.azimuths; ++k) azimuths.push_back(make_azimuth_table(surface_, options, k));
+  for (int k = 0; k < options.azimuths; ++k) {
+    azimuths.push_back(make_azimuth_table(surface_, options, azimuth_rad(options, k)));
+  }
   const int rings = ring_count(surface_, options);
   std::vector<float> result(frames_.size() * WalkTile::kTexels);
   parallel_for(static_cast<std::int64_t>(frames_.size()), [&](std::int64_t i) {

@@ -138,7 +138,8 @@ HorizonPlan plan_sky(HorizonPilot& pilot, const HorizonGoal& goal) {
   if (goal.azimuths > 0) plan.sky.azimuths = goal.azimuths;
   if (pilot.empty()) return plan;
   // The total changes by 1 − ρ × (the mean of the total seen) of what A does, which is about 1 − ρ.
-  const double error = kAim * goal.error * (goal.total_only ? kSkyShare / (1 - kAlbedo * kTotalSeen) : 1);
+  const double error =
+      kAim * goal.error * goal.sky_share * (goal.total_only ? kSkyShare / (1 - kAlbedo * kTotalSeen) : 1);
   double sampling = 0;
   double few = 0;
   plan.sky = choose_sampling(pilot, error, goal.azimuths, sampling);

@@ -60,14 +60,15 @@ std::unique_ptr<Transport> build_horizon_transport(const Surface& surface, const
 }
 
 PlannedTransport plan_horizon_transport(const Surface& surface, const HorizonGoal& goal,
-                                        const HorizonOptions& options) {
+                                        const HorizonOptions& options, const SkyWanted& wanted) {
   if (!(goal.error > 0)) throw UsageError("--error " + std::to_string(goal.error) + ": must be positive");
   if (goal.azimuths > 0) check_azimuths(goal.azimuths);
   PlannedTransport planned;
   HorizonPilot pilot(surface, goal.seed);
   planned.plan = plan_sky(pilot, goal);
   auto mips = std::make_unique<HeightMips>(build_height_mips(surface));
-  HorizonSky sky = walk_horizon_sky(surface, *mips, planned.plan.sky, options.quiet);
+  HorizonSky sky = walk_horizon_sky(surface, *mips, planned.plan.sky, options.quiet, {wanted, {}});
+  planned.moments = std::move(sky.moments);
   std::unique_ptr<SeenLight> light =
       plan_links(pilot, *mips, to_vector(sky.sky_view_factor), goal, options, planned.plan);
   planned.transport = std::make_unique<HorizonTransport>(std::move(sky), std::move(mips), std::move(light));

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/hash.h"
 #include "core/parallel.h"
@@ -83,27 +84,34 @@ TotalIrradiance solve_totals(const Transport& transport, const std::vector<doubl
   result.totals.assign(albedos.size(), transport.direct);
   TexelVector last = transport.direct;
   TexelVector sum = last;
-  do {
+  std::vector<std::size_t> open(albedos.size());  // whose totals go on
+  std::iota(open.begin(), open.end(), std::size_t{0});
+  while (!open.empty()) {
     const int next = ++result.bounces;
     TexelVector gathered = transport.gather(last);
-    result.change = 0;
-    for (const double albedo : albedos) {
-      result.change = std::max(result.change, total_change(judges, sum, last, gathered, albedo, next));
+    std::vector<double> changes;
+    for (const std::size_t a : open) {
+      changes.push_back(total_change(judges, sum, last, gathered, albedos[a], next));
     }
-    std::vector<double> powers;
-    for (const double albedo : albedos) powers.push_back(std::pow(albedo, next));
-    for_texels(transport, [&](Eigen::Index i) {
-      sum[i] += gathered[i];
-      for (std::size_t a = 0; a < powers.size(); ++a) result.totals[a][i] += powers[a] * gathered[i];
-    });
+    for_texels(transport, [&](Eigen::Index i) { sum[i] += gathered[i]; });
     last.swap(gathered);
+    std::vector<std::size_t> going_on;
+    for (std::size_t k = 0; k < open.size(); ++k) {
+      const double albedo = albedos[open[k]];
+      TexelVector& total = result.totals[open[k]];
+      const double power = std::pow(albedo, next);
+      const double tail_power = std::pow(albedo, next + 1);
+      const bool enough = changes[k] <= tolerance || next == kMostBounces;
+      for_texels(transport, [&](Eigen::Index i) {
+        if (is_missing(transport, i)) return;
+        total[i] += power * last[i];
+        if (enough) total[i] += conserved(sum[i], last[i], albedo, tail_power);
+      });
+      if (!enough) going_on.push_back(open[k]);
+      if (enough) result.change = std::max(result.change, changes[k]);
+    }
+    open.swap(going_on);
     progress.add(1);
-  } while (result.change > tolerance && result.bounces < kMostBounces);
-  for (std::size_t a = 0; a < albedos.size(); ++a) {
-    const double power = std::pow(albedos[a], result.bounces + 1);
-    for_texels(transport, [&](Eigen::Index i) {
-      if (!is_missing(transport, i)) result.totals[a][i] += conserved(sum[i], last[i], albedos[a], power);
-    });
   }
   return result;
 }

@@ -63,11 +63,14 @@ class ExactWalker {
   /// where the sample is missing.
   double horizon_rad(int row, int column, double azimuth_rad) const;
 
- private:
-  /// Slope of the horizon along a horizontal unit vector; appends what is seen above `least_slope`.
+  /// Slope of the horizon along a horizontal unit vector (−∞ where there is no surface), of a receiver that
+  /// is present; appends what is seen above `least_slope`.
   double walk(int row, int column, const Eigen::Vector2d& azimuth, double least_slope,
               std::vector<VisibleStretch>& stretches) const;
 
+  const Surface& surface() const { return surface_; }
+
+ private:
   const Surface& surface_;
   MaximumPyramid pyramid_;
   RayGrid grid_;

@@ -1,6 +1,7 @@
 #include "visibility/horizon_sky.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
 
@@ -10,6 +11,8 @@
 namespace heightlight {
 namespace {
 
+constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
+
 /// What a thread needs to walk tile after tile.
 struct Workspace {
   WalkTile tile;
@@ -17,46 +20,130 @@ struct Workspace {
   FarView far;
 };
 
-void write_tile(const Workspace& work, int azimuths, HorizonSky& sky) {
-  for (int i = 0; i < work.tile.rows; ++i) {
-    for (int j = 0; j < work.tile.columns; ++j) {
-      const auto at = static_cast<std::size_t>(i * WalkTile::kSide + j);
-      const bool present = work.tile.present[at];
-      constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
-      sky.sky_view_factor(work.tile.first_row + i, work.tile.first_column + j) =
-          present ? std::clamp(work.sums.sky[at] / work.sums.full[at], 0.0F, 1.0F) : kMissing;
-      sky.ambient_occlusion(work.tile.first_row + i, work.tile.first_column + j) =
-          present ? std::clamp(work.sums.solid[at] / static_cast<float>(azimuths), 0.0F, 1.0F) : kMissing;
-    }
+/// An azimuth, and what of it lies within the reach.
+struct Azimuth {
+  AzimuthTable table;
+  std::optional<ReachTable> reach;
+};
+
+/// Azimuths to walk along, with everything that all tiles share.
+struct Route {
+  std::vector<Azimuth> azimuths;
+  int rings = 0;
+};
+
+Route plan_route(const Surface& surface, const WalkOptions& options, const std::vector<double>& azimuths,
+                 const std::optional<Reach>& reach) {
+  Route route{{}, ring_count(surface, options)};
+  if (reach) {
+    check_reach(*reach);
+    route.rings = rings_within(surface, options, reach->distance, route.rings);
   }
+  for (const double azimuth : azimuths) {
+    Azimuth& made = route.azimuths.emplace_back();
+    made.table = make_azimuth_table(surface, options, azimuth);
+    made.table.rings.resize(static_cast<std::size_t>(route.rings));
+    if (reach) made.reach = make_reach_table(made.table, *reach);
+  }
+  return route;
 }
 
-}  // namespace
+void walk_azimuth(const Azimuth& azimuth, Workspace& work) {
+  if (azimuth.reach) return walk_sky_within(work.tile, azimuth.table, *azimuth.reach, work.sums);
+  look_far(work.tile, azimuth.table, work.far);
+  walk_sky(work.tile, azimuth.table, work.far, work.sums);
+}
 
-HorizonSky walk_horizon_sky(const Surface& surface, const HeightMips& mips, const WalkOptions& options,
-                            bool quiet) {
-  std::vector<AzimuthTable> azimuths;
-  for (int k = 0; k < options.azimuths; ++k) azimuths.push_back(make_azimuth_table(surface, options, k));
-  const int rings = ring_count(surface, options);
-  HorizonSky sky{Map(surface.width(), surface.height()), Map(surface.width(), surface.height())};
+/// Loads tile after tile and calls visit(workspace) for each, on all threads.
+template <class Visit>
+void for_tiles(const Surface& surface, const HeightMips& mips, const WalkOptions& options, const Route& route,
+               const char* label, bool quiet, Visit&& visit) {
   const TileGrid tiles(surface.width(), surface.height());
   std::vector<std::unique_ptr<Workspace>> workspaces(static_cast<std::size_t>(thread_count()));
-  Progress progress("sky", tiles.count(), quiet);
+  Progress progress(label, tiles.count(), quiet);
   parallel_for(
       tiles.count(),
       [&](std::int64_t tile) {
         std::unique_ptr<Workspace>& work = workspaces[static_cast<std::size_t>(omp_get_thread_num())];
         if (!work) work = std::make_unique<Workspace>();
-        work->sums = {};
-        work->tile.load(surface, mips, options, rings, tiles.frame(tile));
-        for (const AzimuthTable& azimuth : azimuths) {
-          look_far(work->tile, azimuth, work->far);
-          walk_sky(work->tile, azimuth, work->far, work->sums);
-        }
-        write_tile(*work, options.azimuths, sky);
+        work->tile.load(surface, mips, options, route.rings, tiles.frame(tile));
+        visit(*work);
       },
       &progress);
+}
+
+/// Calls write(texel of the map, index in the tile) for each receiver inside the map.
+template <class Write>
+void for_receivers(const WalkTile& tile, const Map& map, Write&& write) {
+  for (int i = 0; i < tile.rows; ++i) {
+    for (int j = 0; j < tile.columns; ++j) {
+      write(map.index(tile.first_row + i, tile.first_column + j),
+            static_cast<std::size_t>(i * WalkTile::kSide + j));
+    }
+  }
+}
+
+void write_tile(const Workspace& work, int azimuths, HorizonSky& sky) {
+  const SkySums& sums = work.sums;
+  for_receivers(work.tile, sky.sky_view_factor, [&](std::size_t texel, std::size_t at) {
+    const bool present = work.tile.present[at];
+    const float full = present ? sums.full[at] : kMissing;
+    sky.sky_view_factor.values[texel] = present ? std::clamp(sums.sky[at] / full, 0.0F, 1.0F) : kMissing;
+    sky.ambient_occlusion.values[texel] =
+        present ? std::clamp(sums.solid[at] / static_cast<float>(azimuths), 0.0F, 1.0F) : kMissing;
+    if (sums.wanted.first) {
+      sky.moments.first.values[texel] =
+          Eigen::Vector3f(sums.first[0][at], sums.first[1][at], sums.first[2][at]) / full;
+    }
+    if (sums.wanted.second) {
+      for (std::size_t k = 0; k < 5; ++k) sky.moments.second.values[texel][k] = sums.second[k][at] / full;
+    }
+  });
+}
+
+}  // namespace
+
+HorizonSky walk_horizon_sky(const Surface& surface, const HeightMips& mips, const WalkOptions& options,
+                            bool quiet, const SkyTask& task) {
+  std::vector<double> azimuths;
+  for (int k = 0; k < options.azimuths; ++k) azimuths.push_back(azimuth_rad(options, k));
+  const Route route = plan_route(surface, options, azimuths, task.reach);
+  const int width = surface.width();
+  const int height = surface.height();
+  HorizonSky sky{Map(width, height), Map(width, height), {}};
+  if (task.wanted.first) sky.moments.first = Image<Eigen::Vector3f>(width, height, Eigen::Vector3f::Zero());
+  if (task.wanted.second) sky.moments.second = Image<std::array<float, 5>>(width, height);
+  for_tiles(surface, mips, options, route, "sky", quiet, [&](Workspace& work) {
+    work.sums.wanted = task.wanted;
+    work.sums.clear();
+    for (const Azimuth& azimuth : route.azimuths) walk_azimuth(azimuth, work);
+    write_tile(work, options.azimuths, sky);
+  });
   return sky;
+}
+
+std::uint64_t horizon_sky_bytes(const SkyWanted& wanted) {
+  return sizeof(float) * (2 + (wanted.first ? 3 : 0) + (wanted.second ? 5 : 0));
+}
+
+std::vector<Map> walk_horizons(const Surface& surface, const HeightMips& mips, const WalkOptions& options,
+                               const std::vector<double>& azimuths, const std::optional<Reach>& reach,
+                               bool quiet) {
+  std::optional<Reach> sharp = reach;
+  if (sharp) sharp->falloff = Falloff::none;
+  const Route route = plan_route(surface, options, azimuths, sharp);
+  std::vector<Map> horizons(azimuths.size(), Map(surface.width(), surface.height()));
+  for_tiles(surface, mips, options, route, "horizons", quiet, [&](Workspace& work) {
+    work.sums.keep_slope = true;
+    work.sums.clear();
+    for (std::size_t k = 0; k < route.azimuths.size(); ++k) {
+      walk_azimuth(route.azimuths[k], work);
+      for_receivers(work.tile, horizons[k], [&](std::size_t texel, std::size_t at) {
+        horizons[k].values[texel] = work.tile.present[at] ? std::atan(work.sums.slope[at]) : kMissing;
+      });
+    }
+  });
+  return horizons;
 }
 
 }  // namespace heightlight

@@ -51,7 +51,7 @@ NodeShare far_share(const LightTable& table, int octave, double t) {
 
 LightTable make_light_table(const Surface& surface, const WalkOptions& options, int k,
                             const AzimuthTable& walk) {
-  const GridDirection g = grid_direction(surface, options, k);
+  const GridDirection g = grid_direction(surface, azimuth_rad(options, k));
   LightTable table;
   const int octave = per_octave(options);
   const double farthest = walk.rings.empty() ? 4.0 * options.fineness : double{walk.rings.back().back().way};

@@ -105,7 +105,7 @@ void walk(const WalkTile& tile, const LinkAzimuth& azimuth, int i, int j, NodeWe
 std::vector<LinkAzimuth> make_link_azimuths(const Surface& surface, const WalkOptions& options) {
   std::vector<LinkAzimuth> azimuths;
   for (int k = 0; k < options.azimuths; ++k) {
-    LinkAzimuth azimuth{make_azimuth_table(surface, options, k), {}};
+    LinkAzimuth azimuth{make_azimuth_table(surface, options, azimuth_rad(options, k)), {}};
     azimuth.light = make_light_table(surface, options, k, azimuth.walk);
     azimuths.push_back(std::move(azimuth));
   }

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "visibility/far_view.h"
+#include "visibility/reach_table.h"
 
 // What the sky sends along one azimuth slice, in closed form.
 //
@@ -17,14 +18,32 @@
 // Over K azimuths, A = Σ S(m) / Σ S(m₀). The continuous mean of S(m₀) is 1, and K equal steps of a smooth
 // periodic function give it to within exp(−K asinh(n_z / √(1−n_z²))): only receivers steeper than kSteep need
 // the second sum. α = Σ (1 − m √q) / K exactly: sin h₀ is odd in the azimuth, and K is even.
+//
+// Moments of the sky are likewise closed forms. With s = sin h = m √q, e = 1 − s and ζ = π/2 − h − m q,
+//     ∫ cos³θ = e² (2 + s)/3,   ∫ sinθ cos²θ = q √q/3,   ∫ sin²θ cosθ = e (1 + s + s²)/3,
+//     ∫ cos⁴θ = 3/8 ζ − m q²/4,   ∫ sinθ cos³θ = q²/4,   ∫ sin²θ cos²θ = ζ/8 + m q²/4,
+// from h to π/2, give, twice over, the slice's moments of ω along d and z, and of its squares along d d and d
+// z; that of z z is S less that of d d. cos 2φ and sin 2φ turn d d into x² − y² and 2 xy.
 
 namespace heightlight {
 
 /// Sums over the azimuths walked so far, per receiver of a tile.
 struct SkySums {
-  alignas(64) std::array<float, WalkTile::kTexels> sky{};    ///< Σ S(m)
-  alignas(64) std::array<float, WalkTile::kTexels> full{};   ///< Σ S(m₀)
-  alignas(64) std::array<float, WalkTile::kTexels> solid{};  ///< Σ (1 − sin h)
+  using Values = std::array<float, WalkTile::kTexels>;
+
+  alignas(64) Values sky{};    ///< Σ S(m)
+  alignas(64) Values full{};   ///< Σ S(m₀)
+  alignas(64) Values solid{};  ///< Σ (1 − sin h)
+
+  SkyWanted wanted;
+  alignas(64) std::array<Values, 3> first{};   ///< wanted.first: Σ of twice the slices' moments of ω
+  alignas(64) std::array<Values, 5> second{};  ///< wanted.second: of x² − y², xy, z², xz, yz
+
+  bool keep_slope = false;
+  alignas(64) Values slope{};  ///< keep_slope: of the last azimuth's horizon, m
+
+  /// Before the first azimuth.
+  void clear();
 };
 
 /// Slope of the normal's plane from which on Σ S(m₀) is summed, not taken as K.
@@ -33,8 +52,15 @@ constexpr float kSteep = 2.0F;
 /// Walks one azimuth from every receiver of the tile. The readable one.
 void walk_sky_scalar(const WalkTile& tile, const AzimuthTable& azimuth, const FarView& far, SkySums& sums);
 
-/// The fast one: receivers side by side. The same sums, but for the rounding of fused products where the
+/// Likewise, with occluders only as far as a reach. Where slopes are kept, a sharp one is taken, and the sky
+/// above its horizons.
+void walk_sky_within_scalar(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach,
+                            SkySums& sums);
+
+/// The fast ones: receivers side by side. The same sums, but for the rounding of fused products where the
 /// machine has them, and of the arc tangent (2e-8).
 void walk_sky(const WalkTile& tile, const AzimuthTable& azimuth, const FarView& far, SkySums& sums);
+void walk_sky_within(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach,
+                     SkySums& sums);
 
 }  // namespace heightlight

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "visibility/sky_walk.h"
 
@@ -9,19 +10,29 @@ namespace {
 
 constexpr float kHalfPi = std::numbers::pi_v<float> / 2;
 
+/// Slope under which the receiver in row i and column j of the tile sees a near sample.
+float near_slope(const WalkTile& tile, const NearSample& sample, int i, int j) {
+  const int row = tile.first_row + i;
+  const int column = tile.first_column + j;
+  const HeightWindow& window = tile.windows[0];
+  const float weighted = sample.weight[0] * window.at(row + sample.row[0], column + sample.column[0]) +
+                         sample.weight[1] * window.at(row + sample.row[1], column + sample.column[1]);
+  return weighted - sample.per_distance * tile.height[static_cast<std::size_t>(i * WalkTile::kSide + j)];
+}
+
+float ring_slope(const WalkTile& tile, const RingSample& sample, int ring, int i, int j) {
+  const HeightWindow& window = tile.windows[static_cast<std::size_t>(ring)];
+  const float height = window.at((tile.first_row + i + sample.row) >> window.level,
+                                 (tile.first_column + j + sample.column) >> window.level);
+  return (height - tile.height[static_cast<std::size_t>(i * WalkTile::kSide + j)]) * sample.per_distance;
+}
+
 /// Slope of the horizon seen from the receiver in row i and column j of the tile, at least `tangent`.
 float horizon_slope(const WalkTile& tile, const AzimuthTable& azimuth, const FarView& far, int i, int j,
                     float tangent) {
   const float z = tile.height[static_cast<std::size_t>(i * WalkTile::kSide + j)];
-  const int row = tile.first_row + i;
-  const int column = tile.first_column + j;
   float slope = tangent;
-  for (const NearSample& sample : azimuth.near) {
-    const HeightWindow& window = tile.windows[0];
-    const float weighted = sample.weight[0] * window.at(row + sample.row[0], column + sample.column[0]) +
-                           sample.weight[1] * window.at(row + sample.row[1], column + sample.column[1]);
-    slope = std::max(slope, weighted - sample.per_distance * z);
-  }
+  for (const NearSample& sample : azimuth.near) slope = std::max(slope, near_slope(tile, sample, i, j));
   constexpr int kSide = WalkTile::kGroup;
   const auto group = static_cast<std::size_t>(i / kSide * (WalkTile::kSide / kSide) + j / kSide);
   const float nearer = static_cast<float>(i % kSide - kSide / 2) * azimuth.along_row +
@@ -33,25 +44,262 @@ float horizon_slope(const WalkTile& tile, const AzimuthTable& azimuth, const Far
   return slope;
 }
 
-}  // namespace
+/// A point of the profile: its distance and its height from the receiver's.
+struct ProfilePoint {
+  float way = 0;
+  float rise = 0;
 
-void walk_sky_scalar(const WalkTile& tile, const AzimuthTable& azimuth, const FarView& far, SkySums& sums) {
+  float squared() const { return rise * rise + way * way; }
+};
+
+/// Slope to the place where the stretch between two points leaves the sphere of the reach, if it does and
+/// ends above or beyond it; else −∞. The line p + g t meets the sphere where (1 + g²) t² + 2 p g t + p² = D².
+float exit_slope(const ProfilePoint& begin, const ProfilePoint& end, const ReachTable& reach) {
+  const bool above = begin.rise > 0 && begin.squared() > reach.squared;
+  if (begin.rise <= reach.deepest || above) return kNoHeight;
+  const float g = (end.rise - begin.rise) / run_between(begin.way, end.way);
+  const float p = begin.rise - g * begin.way;
+  const float u = 1 + g * g;
+  const float root = reach.squared * u - p * p;
+  if (root < 0 || p >= 0) return kNoHeight;  // p ≥ 0: from the beginning on it only falls
+  const float way = (std::sqrt(root) - p * g) / u;
+  constexpr float kRounding = 1e-5F;
+  if (way < begin.way * (1 - kRounding) || way > end.way * (1 + kRounding)) return kNoHeight;
+  return p / way + g;
+}
+
+/// Likewise, of what lies within the reach.
+float horizon_slope_within(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach, int i,
+                           int j, float tangent) {
+  float slope = tangent;
+  ProfilePoint begin;
+  for (std::size_t k = 0; k < reach.near; ++k) {
+    const NearSample& sample = azimuth.near[k];
+    const float seen = near_slope(tile, sample, i, j);
+    const float way = 1 / sample.per_distance;
+    const ProfilePoint end{way, std::max(seen * way, reach.deepest)};
+    const bool inside = end.squared() <= reach.squared;
+    slope = std::max(slope, inside ? seen : exit_slope(begin, end, reach));
+    begin = end;
+  }
+  for (std::size_t ring = 0; ring < reach.caps.size(); ++ring) {
+    for (std::size_t k = 0; k < reach.caps[ring].size(); ++k) {
+      const float seen = ring_slope(tile, azimuth.rings[ring][k], static_cast<int>(ring) + 1, i, j);
+      slope = std::max(slope, std::min(seen, reach.caps[ring][k]));
+    }
+  }
+  return slope;
+}
+
+/// What a slice sends from above slope m, in the plane of its azimuth; sky_walk.h derives it. Differences of
+/// two are what lies between their slopes.
+struct SliceSums {
+  float sky = 0, solid = 0;
+  float along = 0, up = 0;             ///< wanted.first
+  float along_squared = 0, mixed = 0;  ///< wanted.second
+};
+
+SliceSums integrate_slice(float c, float n_z, float m, const SkyWanted& wanted) {
+  const float q = 1 / (1 + m * m);
+  const float zenith = kHalfPi - std::atan(m) - m * q;
+  const float s = m * std::sqrt(q);
+  SliceSums slice;
+  slice.sky = c * zenith + n_z * q;
+  slice.solid = 1 - s;
+  if (wanted.first) {
+    const float e = 1 - s;
+    const float mixed = q * std::sqrt(q);
+    slice.along = 2.0F / 3 * (c * (e * e * (2 + s)) + n_z * mixed);
+    slice.up = 2.0F / 3 * (c * mixed + n_z * (e * (1 + s + s * s)));
+  }
+  if (wanted.second) {
+    const float fourth = q * q / 4;
+    slice.along_squared = 2 * (c * (0.375F * zenith - m * fourth) + n_z * fourth);
+    slice.mixed = 2 * (c * fourth + n_z * (zenith / 8 + m * fourth));
+  }
+  return slice;
+}
+
+SliceSums operator-(const SliceSums& a, const SliceSums& b) {
+  return {
+      a.sky - b.sky,    a.solid - b.solid, a.along - b.along, a.up - b.up, a.along_squared - b.along_squared,
+      a.mixed - b.mixed};
+}
+
+void add(float share, const SliceSums& slice, SliceSums& sum) {
+  sum.sky += share * slice.sky;
+  sum.solid += share * slice.solid;
+  sum.along += share * slice.along;
+  sum.up += share * slice.up;
+  sum.along_squared += share * slice.along_squared;
+  sum.mixed += share * slice.mixed;
+}
+
+/// The slope halfway between two, by angle.
+float slope_between(float a, float b) {
+  const float cosine_a = 1 / std::sqrt(1 + a * a);
+  const float cosine_b = 1 / std::sqrt(1 + b * b);
+  return (a * cosine_a + b * cosine_b) / (cosine_a + cosine_b);
+}
+
+/// Mean of μ over a stretch from `begin` to `end`, seen from slope m to `seen`: that under the angles a
+/// quarter and three quarters between, weighted as they light the receiver.
+float share_of_stretch(const ProfilePoint& begin, const ProfilePoint& end, float c, float n_z, float m,
+                       float seen, const ReachTable& reach) {
+  if (begin.way == 0) return 0;  // the receiver's own facet: it is hit at once
+  const float g = (end.rise - begin.rise) / run_between(begin.way, end.way);
+  const float p = begin.rise - g * begin.way;
+  const float middle = slope_between(m, seen);
+  float weights = 1e-20F;
+  float sum = 0;
+  for (const float slope : {slope_between(m, middle), slope_between(middle, seen)}) {
+    // The line p + g t is under the slope there.
+    const float meets = slope < g ? -p / (g - slope) : begin.way;
+    const float way = begin.rise <= reach.deepest ? end.way : std::clamp(meets, begin.way, end.way);
+    const float squared = 1 + slope * slope;
+    const float share = std::min(1.0F, way * std::sqrt(squared) / reach.distance);
+    const float weight = std::max(0.0F, c + n_z * slope) / squared;
+    weights += weight;
+    sum += weight * (reach.falloff == Falloff::root ? std::sqrt(share) : share);
+  }
+  return sum / weights;
+}
+
+/// Of a sharp reach: the slopes between which a stretch lies inside its sphere, no less than m and no more
+/// than `seen`; equal where it lies outside. The line p + g t meets the sphere where (1 + g²) t² + 2 p g t +
+/// p² = D².
+std::pair<float, float> slopes_inside(const ProfilePoint& begin, const ProfilePoint& end, float m, float seen,
+                                      const ReachTable& reach) {
+  if (begin.way == 0) return {m, seen};
+  // What stands behind a hole is seen at its end.
+  if (begin.rise <= reach.deepest) return {m, end.squared() <= reach.squared ? seen : m};
+  const float g = (end.rise - begin.rise) / run_between(begin.way, end.way);
+  const float p = begin.rise - g * begin.way;
+  const float u = 1 + g * g;
+  const float root = reach.squared * u - p * p;
+  if (root <= 0) return {m, m};
+  const float enters = (-std::sqrt(root) - p * g) / u;
+  const float leaves = (std::sqrt(root) - p * g) / u;
+  const float low = enters > begin.way ? p / enters + g : m;
+  const float high = leaves < end.way ? p / std::max(leaves, begin.way) + g : seen;
+  const float from = std::clamp(low, m, seen);
+  return {from, std::clamp(high, from, seen)};
+}
+
+/// The slice of a receiver with a reach.
+SliceSums slice_within(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach, int i,
+                       int j, float c, float n_z, float tangent, const SkyWanted& wanted) {
+  SliceSums open;
+  float m = tangent;
+  SliceSums above = integrate_slice(c, n_z, m, wanted);
+  ProfilePoint begin;
+  const auto see = [&](const ProfilePoint& from, const ProfilePoint& to, float seen) {
+    if (!(seen > m)) return;
+    const SliceSums next = integrate_slice(c, n_z, seen, wanted);
+    if (reach.falloff == Falloff::none) {
+      const auto [low, high] = slopes_inside(from, to, m, seen, reach);
+      add(1, above - integrate_slice(c, n_z, low, wanted), open);
+      add(1, integrate_slice(c, n_z, high, wanted) - next, open);
+    } else {
+      add(share_of_stretch(from, to, c, n_z, m, seen, reach), above - next, open);
+    }
+    above = next;
+    m = seen;
+  };
+  for (std::size_t k = 0; k < reach.near; ++k) {
+    const NearSample& sample = azimuth.near[k];
+    const float seen = near_slope(tile, sample, i, j);
+    const float way = 1 / sample.per_distance;
+    const ProfilePoint end{way, std::max(seen * way, reach.deepest)};
+    see(begin, end, seen);
+    begin = end;
+  }
+  for (std::size_t ring = 0; ring < reach.caps.size(); ++ring) {
+    for (std::size_t k = 0; k < reach.caps[ring].size(); ++k) {
+      const RingSample& sample = azimuth.rings[ring][k];
+      const float seen = ring_slope(tile, sample, static_cast<int>(ring) + 1, i, j);
+      const float way = 1 / sample.per_distance;
+      const ProfilePoint end{way, std::max(seen * way, reach.deepest)};
+      see(begin, end, seen);
+      begin = end;
+    }
+  }
+  add(1, above, open);
+  return open;
+}
+
+/// Adds a receiver's slice to its sums.
+void add_slice(const AzimuthTable& azimuth, std::size_t at, const SliceSums& slice, float full,
+               SkySums& sums) {
+  const float x = azimuth.world_x;
+  const float y = azimuth.world_y;
+  sums.sky[at] += slice.sky;
+  sums.full[at] += full;
+  sums.solid[at] += slice.solid;
+  if (sums.wanted.first) {
+    sums.first[0][at] += slice.along * x;
+    sums.first[1][at] += slice.along * y;
+    sums.first[2][at] += slice.up;
+  }
+  if (sums.wanted.second) {
+    sums.second[0][at] += slice.along_squared * (x * x - y * y);
+    sums.second[1][at] += slice.along_squared * (x * y);
+    sums.second[2][at] += slice.sky - slice.along_squared;
+    sums.second[3][at] += slice.mixed * x;
+    sums.second[4][at] += slice.mixed * y;
+  }
+}
+
+/// Calls slice_of(i, j, c, n_z, tangent) for every receiver of the tile and adds what it returns.
+template <class SliceOf>
+void for_receivers(const WalkTile& tile, const AzimuthTable& azimuth, SkySums& sums, SliceOf&& slice_of) {
   for (int i = 0; i < tile.rows; ++i) {
     for (int j = 0; j < tile.columns; ++j) {
       const auto at = static_cast<std::size_t>(i * WalkTile::kSide + j);
       const float tangent = tile.slope_x[at] * azimuth.world_x + tile.slope_y[at] * azimuth.world_y;
       const float n_z = tile.normal_z[at];
       const float c = -n_z * tangent;
-      const auto slice = [c, n_z](float m) {
-        const float q = 1 / (1 + m * m);
-        return c * (kHalfPi - std::atan(m) - m * q) + n_z * q;
-      };
-      const float m = horizon_slope(tile, azimuth, far, i, j, tangent);
-      sums.sky[at] += slice(m);
-      sums.full[at] += n_z * n_z * (1 + kSteep * kSteep) < 1 ? slice(tangent) : 1;
-      sums.solid[at] += 1 - m / std::sqrt(1 + m * m);
+      const bool steep = n_z * n_z * (1 + kSteep * kSteep) < 1;
+      const float full = steep ? integrate_slice(c, n_z, tangent, {}).sky : 1;
+      add_slice(azimuth, at, slice_of(i, j, c, n_z, tangent), full, sums);
     }
   }
+}
+
+/// Likewise, of what lies above horizon(i, j, tangent).
+template <class Horizon>
+void add_above(const WalkTile& tile, const AzimuthTable& azimuth, SkySums& sums, Horizon&& horizon) {
+  for_receivers(tile, azimuth, sums, [&](int i, int j, float c, float n_z, float tangent) {
+    const float m = horizon(i, j, tangent);
+    if (sums.keep_slope) sums.slope[static_cast<std::size_t>(i * WalkTile::kSide + j)] = m;
+    return integrate_slice(c, n_z, m, sums.wanted);
+  });
+}
+
+}  // namespace
+
+void SkySums::clear() {
+  for (Values* sums : {&sky, &full, &solid}) sums->fill(0);
+  if (wanted.first) first.fill({});
+  if (wanted.second) second.fill({});
+}
+
+void walk_sky_scalar(const WalkTile& tile, const AzimuthTable& azimuth, const FarView& far, SkySums& sums) {
+  add_above(tile, azimuth, sums,
+            [&](int i, int j, float tangent) { return horizon_slope(tile, azimuth, far, i, j, tangent); });
+}
+
+void walk_sky_within_scalar(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach,
+                            SkySums& sums) {
+  if (sums.keep_slope) {
+    add_above(tile, azimuth, sums, [&](int i, int j, float tangent) {
+      return horizon_slope_within(tile, azimuth, reach, i, j, tangent);
+    });
+    return;
+  }
+  for_receivers(tile, azimuth, sums, [&](int i, int j, float c, float n_z, float tangent) {
+    return slice_within(tile, azimuth, reach, i, j, c, n_z, tangent, sums.wanted);
+  });
 }
 
 }  // namespace heightlight

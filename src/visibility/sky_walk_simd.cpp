@@ -17,34 +17,236 @@
 HWY_BEFORE_NAMESPACE();
 namespace heightlight::HWY_NAMESPACE {
 
-void walk_sky_lanes(const WalkTile& tile, const AzimuthTable& azimuth, const FarView& far, SkySums& sums) {
-  // A vector spans whole groups.
-  if constexpr (hn::MaxLanes(kF) < WalkTile::kGroup) return walk_sky_scalar(tile, azimuth, far, sums);
-  const LaneWalk walk(tile, azimuth, far);
-  const VF one = hn::Set(kF, 1.0F);
-  const VF steep = hn::Set(kF, 1 / (1 + kSteep * kSteep));
+/// What slices send from above a slope; as in sky_walk_scalar.cpp.
+struct SliceSums {
+  VF sky, solid, along, up, along_squared, mixed;
+};
+
+HWY_INLINE SliceSums integrate_sums(VF c, VF n_z, VF m, const SkyWanted& wanted) {
+  const Slice slice = integrate_slice(c, n_z, m);
+  const VF zero = hn::Zero(kF);
+  SliceSums sums{slice.sky, slice.solid, zero, zero, zero, zero};
+  if (wanted.first) {
+    const FirstMoments first = integrate_first(c, n_z, m);
+    sums.along = first.along;
+    sums.up = first.up;
+  }
+  if (wanted.second) {
+    const SecondMoments second = integrate_second(c, n_z, m);
+    sums.along_squared = second.along;
+    sums.mixed = second.mixed;
+  }
+  return sums;
+}
+
+/// open += share × (above − next).
+HWY_INLINE void add_between(VF share, const SliceSums& above, const SliceSums& next, const SkyWanted& wanted,
+                            SliceSums& open) {
+  open.sky = hn::MulAdd(share, hn::Sub(above.sky, next.sky), open.sky);
+  open.solid = hn::MulAdd(share, hn::Sub(above.solid, next.solid), open.solid);
+  if (wanted.first) {
+    open.along = hn::MulAdd(share, hn::Sub(above.along, next.along), open.along);
+    open.up = hn::MulAdd(share, hn::Sub(above.up, next.up), open.up);
+  }
+  if (wanted.second) {
+    open.along_squared =
+        hn::MulAdd(share, hn::Sub(above.along_squared, next.along_squared), open.along_squared);
+    open.mixed = hn::MulAdd(share, hn::Sub(above.mixed, next.mixed), open.mixed);
+  }
+}
+
+HWY_INLINE void add_to(float* sum, float factor, VF value) {
+  hn::Store(hn::MulAdd(hn::Set(kF, factor), value, hn::Load(kF, sum)), kF, sum);
+}
+
+/// Adds the slices of vector v to its receivers' sums.
+HWY_INLINE void add_slices(const WalkTile& tile, const AzimuthTable& azimuth, const Bunch& bunch,
+                           std::size_t v, const SliceSums& slices, SkySums& sums) {
+  const std::size_t at = bunch.first + v * hn::Lanes(kF);
+  const VF n_z = hn::Load(kF, tile.normal_z.data() + at);
+  add_to(sums.sky.data() + at, 1, slices.sky);
+  add_to(sums.solid.data() + at, 1, slices.solid);
+  const auto is_steep = hn::Lt(hn::Mul(n_z, n_z), hn::Set(kF, 1 / (1 + kSteep * kSteep)));
+  VF full = hn::Set(kF, 1.0F);
+  if (HWY_UNLIKELY(!hn::AllFalse(kF, is_steep))) {
+    const VF c = hn::Neg(hn::Mul(n_z, bunch.tangent[v]));
+    full = hn::IfThenElse(is_steep, integrate_slice(c, n_z, bunch.tangent[v]).sky, full);
+  }
+  add_to(sums.full.data() + at, 1, full);
+  const float x = azimuth.world_x;
+  const float y = azimuth.world_y;
+  if (sums.wanted.first) {
+    add_to(sums.first[0].data() + at, x, slices.along);
+    add_to(sums.first[1].data() + at, y, slices.along);
+    add_to(sums.first[2].data() + at, 1, slices.up);
+  }
+  if (sums.wanted.second) {
+    add_to(sums.second[0].data() + at, x * x - y * y, slices.along_squared);
+    add_to(sums.second[1].data() + at, x * y, slices.along_squared);
+    add_to(sums.second[2].data() + at, 1, hn::Sub(slices.sky, slices.along_squared));
+    add_to(sums.second[3].data() + at, x, slices.mixed);
+    add_to(sums.second[4].data() + at, y, slices.mixed);
+  }
+}
+
+/// Calls work(walk, bunch) for all receivers of the tile.
+template <class Work>
+HWY_INLINE void for_bunches(const WalkTile& tile, const AzimuthTable& azimuth, Work&& work) {
+  const LaneWalk walk(tile, azimuth);
   for (int row = 0; row < tile.rows; ++row) {
     for (int column = 0; column < tile.columns; column += static_cast<int>(kBunch * hn::Lanes(kF))) {
       Bunch bunch = walk.begin(row, column);
-      walk.look_near(bunch);
-      walk.look_far(bunch);
-      for (std::size_t v = 0; v < kBunch; ++v) {
-        const std::size_t at = bunch.first + v * hn::Lanes(kF);
-        const VF n_z = hn::Load(kF, tile.normal_z.data() + at);
-        const VF c = hn::Neg(hn::Mul(n_z, bunch.tangent[v]));
-        const VF m = bunch.slope[v];
-        const Slice slice = integrate_slice(c, n_z, m);
-        hn::Store(hn::Add(hn::Load(kF, sums.sky.data() + at), slice.sky), kF, sums.sky.data() + at);
-        hn::Store(hn::Add(hn::Load(kF, sums.solid.data() + at), slice.solid), kF, sums.solid.data() + at);
-        const auto is_steep = hn::Lt(hn::Mul(n_z, n_z), steep);
-        VF full = one;
-        if (HWY_UNLIKELY(!hn::AllFalse(kF, is_steep))) {
-          full = hn::IfThenElse(is_steep, integrate_slice(c, n_z, bunch.tangent[v]).sky, one);
-        }
-        hn::Store(hn::Add(hn::Load(kF, sums.full.data() + at), full), kF, sums.full.data() + at);
-      }
+      work(walk, bunch);
     }
   }
+}
+
+/// Likewise, and adds what lies above the horizons that look(walk, bunch) finds.
+template <class Look>
+HWY_INLINE void add_above(const WalkTile& tile, const AzimuthTable& azimuth, SkySums& sums, Look&& look) {
+  for_bunches(tile, azimuth, [&](const LaneWalk& walk, Bunch& bunch) HWY_ATTR {
+    look(walk, bunch);
+    for (std::size_t v = 0; v < kBunch; ++v) {
+      const std::size_t at = bunch.first + v * hn::Lanes(kF);
+      const VF n_z = hn::Load(kF, tile.normal_z.data() + at);
+      const VF c = hn::Neg(hn::Mul(n_z, bunch.tangent[v]));
+      if (sums.keep_slope) hn::Store(bunch.slope[v], kF, sums.slope.data() + at);
+      add_slices(tile, azimuth, bunch, v, integrate_sums(c, n_z, bunch.slope[v], sums.wanted), sums);
+    }
+  });
+}
+
+void walk_sky_lanes(const WalkTile& tile, const AzimuthTable& azimuth, const FarView& far, SkySums& sums) {
+  // A vector spans whole groups.
+  if constexpr (hn::MaxLanes(kF) < WalkTile::kGroup) return walk_sky_scalar(tile, azimuth, far, sums);
+  add_above(tile, azimuth, sums, [&](const LaneWalk& walk, Bunch& bunch) HWY_ATTR {
+    walk.look_near(bunch);
+    walk.look_far(far, bunch);
+  });
+}
+
+HWY_INLINE VF slope_between(VF a, VF b) {
+  const VF one = hn::Set(kF, 1.0F);
+  const VF cosine_a = hn::Div(one, hn::Sqrt(hn::MulAdd(a, a, one)));
+  const VF cosine_b = hn::Div(one, hn::Sqrt(hn::MulAdd(b, b, one)));
+  return hn::Div(hn::MulAdd(a, cosine_a, hn::Mul(b, cosine_b)), hn::Add(cosine_a, cosine_b));
+}
+
+/// A stretch of the profile, per receiver: share_of_stretch of sky_walk_scalar.cpp has the names.
+struct Stretch {
+  VF begin, rise;
+  float before, way;
+};
+
+/// Mean of μ over stretches seen from slope m to `seen`.
+HWY_INLINE VF share_of_stretches(const Stretch& stretch, VF c, VF n_z, VF m, VF seen,
+                                 const ReachTable& reach) {
+  if (stretch.before <= 0) return hn::Zero(kF);
+  const VF one = hn::Set(kF, 1.0F);
+  const VF zero = hn::Zero(kF);
+  const VF first = hn::Set(kF, stretch.before);
+  const VF last = hn::Set(kF, stretch.way);
+  const VF g = hn::Mul(hn::Sub(stretch.rise, stretch.begin),
+                       hn::Set(kF, 1 / run_between(stretch.before, stretch.way)));
+  const VF p = hn::NegMulAdd(g, first, stretch.begin);
+  const auto behind_hole = hn::Le(stretch.begin, hn::Set(kF, reach.deepest));
+  const VF middle = slope_between(m, seen);
+  VF weights = hn::Set(kF, 1e-20F);
+  VF sum = zero;
+  for (const bool upper : {false, true}) {
+    const VF slope = upper ? slope_between(middle, seen) : slope_between(m, middle);
+    const auto rises = hn::Lt(slope, g);
+    const VF steeper = hn::IfThenElse(rises, hn::Sub(g, slope), one);
+    const VF meets = hn::IfThenElse(rises, hn::Div(hn::Neg(p), steeper), first);
+    const VF clamped = hn::Min(hn::Max(meets, first), last);
+    const VF way = hn::IfThenElse(behind_hole, last, clamped);
+    const VF squared = hn::MulAdd(slope, slope, one);
+    const VF distance = hn::Mul(way, hn::Sqrt(squared));
+    const VF share = hn::Min(one, hn::Div(distance, hn::Set(kF, reach.distance)));
+    const VF weight = hn::Div(hn::Max(zero, hn::MulAdd(n_z, slope, c)), squared);
+    weights = hn::Add(weights, weight);
+    sum = hn::MulAdd(weight, reach.falloff == Falloff::root ? hn::Sqrt(share) : share, sum);
+  }
+  return hn::Div(sum, weights);
+}
+
+/// Of a sharp reach: slopes_inside of sky_walk_scalar.cpp.
+struct SlopePair {
+  VF low, high;
+};
+HWY_INLINE SlopePair slopes_inside(const Stretch& stretch, VF m, VF seen, const ReachTable& reach) {
+  if (stretch.before <= 0) return {m, seen};
+  const VF squared = hn::Set(kF, reach.squared);
+  const VF end = hn::MulAdd(stretch.rise, stretch.rise, hn::Set(kF, stretch.way * stretch.way));
+  const VF whole = hn::IfThenElse(hn::Le(end, squared), seen, m);
+  const VF zero = hn::Zero(kF);
+  const VF first = hn::Set(kF, stretch.before);
+  const VF last = hn::Set(kF, stretch.way);
+  const VF g = hn::Mul(hn::Sub(stretch.rise, stretch.begin),
+                       hn::Set(kF, 1 / run_between(stretch.before, stretch.way)));
+  const VF p = hn::NegMulAdd(g, first, stretch.begin);
+  const VF u = hn::MulAdd(g, g, hn::Set(kF, 1.0F));
+  const VF root = hn::NegMulAdd(p, p, hn::Mul(squared, u));
+  const VF half = hn::Sqrt(hn::Max(root, zero));
+  const VF middle = hn::Mul(p, g);
+  const VF enters = hn::Div(hn::Neg(hn::Add(half, middle)), u);
+  const VF leaves = hn::Div(hn::Sub(half, middle), u);
+  const VF low = hn::IfThenElse(hn::Gt(enters, first), hn::Add(hn::Div(p, hn::Max(enters, first)), g), m);
+  const VF high = hn::IfThenElse(hn::Lt(leaves, last), hn::Add(hn::Div(p, hn::Max(leaves, first)), g), seen);
+  const VF from = hn::Min(hn::Max(low, m), seen);
+  const VF to = hn::Min(hn::Max(high, from), seen);
+  const auto meets = hn::Gt(root, zero);
+  const auto behind_hole = hn::Le(stretch.begin, hn::Set(kF, reach.deepest));
+  return {hn::IfThenElse(behind_hole, m, hn::IfThenElse(meets, from, m)),
+          hn::IfThenElse(behind_hole, whole, hn::IfThenElse(meets, to, m))};
+}
+
+HWY_INLINE void walk_chain(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach,
+                           SkySums& sums) {
+  for_bunches(tile, azimuth, [&](const LaneWalk& walk, Bunch& bunch) HWY_ATTR {
+    const VF zero = hn::Zero(kF);
+    std::array<VF, kBunch> n_z, c;
+    std::array<SliceSums, kBunch> open, above;
+    for (std::size_t v = 0; v < kBunch; ++v) {
+      n_z[v] = hn::Load(kF, tile.normal_z.data() + bunch.first + v * hn::Lanes(kF));
+      c[v] = hn::Neg(hn::Mul(n_z[v], bunch.tangent[v]));
+      open[v] = {zero, zero, zero, zero, zero, zero};
+      above[v] = integrate_sums(c[v], n_z[v], bunch.slope[v], sums.wanted);
+    }
+    const auto see = [&](std::size_t v, VF begin, float before, VF rise, float way, VF seen) HWY_ATTR {
+      const VF m = bunch.slope[v];
+      if (hn::AllFalse(kF, hn::Gt(seen, m))) return;
+      const VF higher = hn::Max(m, seen);  // where nothing rises, what is between both is nothing
+      const SliceSums next = integrate_sums(c[v], n_z[v], higher, sums.wanted);
+      if (reach.falloff != Falloff::none) {
+        const VF share = share_of_stretches({begin, rise, before, way}, c[v], n_z[v], m, higher, reach);
+        add_between(share, above[v], next, sums.wanted, open[v]);
+      } else {
+        const SlopePair inside = slopes_inside({begin, rise, before, way}, m, higher, reach);
+        const VF one = hn::Set(kF, 1.0F);
+        add_between(one, above[v], integrate_sums(c[v], n_z[v], inside.low, sums.wanted), sums.wanted,
+                    open[v]);
+        add_between(one, integrate_sums(c[v], n_z[v], inside.high, sums.wanted), next, sums.wanted, open[v]);
+      }
+      above[v] = next;
+      bunch.slope[v] = higher;
+    };
+    walk.for_stretches(reach, bunch, see);
+    const SliceSums nothing{zero, zero, zero, zero, zero, zero};
+    for (std::size_t v = 0; v < kBunch; ++v) {
+      add_between(hn::Set(kF, 1.0F), above[v], nothing, sums.wanted, open[v]);
+      add_slices(tile, azimuth, bunch, v, open[v], sums);
+    }
+  });
+}
+
+void walk_sky_within_lanes(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach,
+                           SkySums& sums) {
+  if (!sums.keep_slope) return walk_chain(tile, azimuth, reach, sums);
+  add_above(tile, azimuth, sums, [&](const LaneWalk& walk, Bunch& bunch) HWY_ATTR {
+    walk.look_near_within(reach, bunch);
+    walk.look_at_rings_within(reach, bunch);
+  });
 }
 
 }  // namespace heightlight::HWY_NAMESPACE
@@ -54,9 +256,15 @@ HWY_AFTER_NAMESPACE();
 namespace heightlight {
 
 HWY_EXPORT(walk_sky_lanes);
+HWY_EXPORT(walk_sky_within_lanes);
 
 void walk_sky(const WalkTile& tile, const AzimuthTable& azimuth, const FarView& far, SkySums& sums) {
   HWY_DYNAMIC_DISPATCH(walk_sky_lanes)(tile, azimuth, far, sums);
+}
+
+void walk_sky_within(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach,
+                     SkySums& sums) {
+  HWY_DYNAMIC_DISPATCH(walk_sky_within_lanes)(tile, azimuth, reach, sums);
 }
 
 }  // namespace heightlight

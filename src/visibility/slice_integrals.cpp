@@ -115,4 +115,16 @@ Eigen::Vector2d bent_mass_above(const SliceNormal& normal, const Elevation& from
   return {normal.along * cubed_cosine + normal.up * mixed, normal.along * mixed + normal.up * squared_sine};
 }
 
+// With k = cos a and ζ = δ − s k, δ = π/2 − a,
+//     ∫ cos⁴θ dθ = 3/8 ζ − s k³/4,   ∫ sinθ cos³θ dθ = k⁴/4,   ∫ sin²θ cos²θ dθ = ζ/8 + s k³/4.
+Eigen::Vector2d second_mass_above(const SliceNormal& normal, const Elevation& from) {
+  const double s = from.sine;
+  const double k = from.cosine;
+  const double zenith = std::atan2(k, s) - s * k;
+  const double fourth = k * k * k * k / 4;
+  const double tilted = s * k * k * k / 4;
+  return {normal.along * (0.375 * zenith - tilted) + normal.up * fourth,
+          normal.along * fourth + normal.up * (zenith / 8 + tilted)};
+}
+
 }  // namespace heightlight

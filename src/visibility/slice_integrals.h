@@ -39,4 +39,7 @@ double solid_angle_above(const Elevation& from);
 /// ∫ ω (n·ω) cosθ dθ from an elevation to the zenith, ω in components along d and z.
 Eigen::Vector2d bent_mass_above(const SliceNormal& normal, const Elevation& from);
 
+/// The same of ω_d², the square along d, and of ω_d ω_z. (That of ω_z² is the mass less that of ω_d².)
+Eigen::Vector2d second_mass_above(const SliceNormal& normal, const Elevation& from);
+
 }  // namespace heightlight

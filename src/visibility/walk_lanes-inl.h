@@ -52,10 +52,45 @@ HWY_INLINE Slice integrate_slice(VF c, VF n_z, VF m) {
   return {hn::MulAdd(c, zenith, hn::Mul(n_z, q)), hn::NegMulAdd(m, hn::Sqrt(q), one)};
 }
 
+/// Twice a slice's moments above the slope m: of ω along d and z, and of its squares along d d and d z.
+struct FirstMoments {
+  VF along, up;
+};
+struct SecondMoments {
+  VF along, mixed;
+};
+
+HWY_INLINE FirstMoments integrate_first(VF c, VF n_z, VF m) {
+  const VF one = hn::Set(kF, 1.0F);
+  const VF two_thirds = hn::Set(kF, 2.0F / 3);
+  const VF q = hn::Div(one, hn::MulAdd(m, m, one));
+  const VF root = hn::Sqrt(q);
+  const VF s = hn::Mul(m, root);
+  const VF e = hn::Sub(one, s);
+  const VF mixed = hn::Mul(q, root);
+  const VF cubed_cosine = hn::Mul(hn::Mul(e, e), hn::Add(hn::Set(kF, 2.0F), s));
+  const VF squared_sine = hn::Mul(e, hn::MulAdd(s, s, hn::Add(one, s)));
+  return {hn::Mul(two_thirds, hn::MulAdd(c, cubed_cosine, hn::Mul(n_z, mixed))),
+          hn::Mul(two_thirds, hn::MulAdd(c, mixed, hn::Mul(n_z, squared_sine)))};
+}
+
+HWY_INLINE SecondMoments integrate_second(VF c, VF n_z, VF m) {
+  const VF one = hn::Set(kF, 1.0F);
+  const VF two = hn::Set(kF, 2.0F);
+  const VF half_pi = hn::Set(kF, std::numbers::pi_v<float> / 2);
+  const VF q = hn::Div(one, hn::MulAdd(m, m, one));
+  const VF zenith = hn::NegMulAdd(m, q, hn::Sub(half_pi, arc_tangent(kF, m)));
+  const VF fourth = hn::Mul(hn::Set(kF, 0.25F), hn::Mul(q, q));
+  const VF tilted = hn::Mul(m, fourth);
+  const VF along = hn::MulSub(hn::Set(kF, 0.375F), zenith, tilted);
+  const VF mixed = hn::MulAdd(hn::Set(kF, 0.125F), zenith, tilted);
+  return {hn::Mul(two, hn::MulAdd(c, along, hn::Mul(n_z, fourth))),
+          hn::Mul(two, hn::MulAdd(c, fourth, hn::Mul(n_z, mixed)))};
+}
+
 class LaneWalk {
  public:
-  LaneWalk(const WalkTile& tile, const AzimuthTable& azimuth, const FarView& far)
-      : tile_(tile), azimuth_(azimuth), far_(far) {}
+  LaneWalk(const WalkTile& tile, const AzimuthTable& azimuth) : tile_(tile), azimuth_(azimuth) {}
 
   Bunch begin(int row, int column) const {
     Bunch bunch;
@@ -74,27 +109,69 @@ class LaneWalk {
   }
 
   void look_near(Bunch& bunch) const {
-    const HeightWindow& window = tile_.windows[0];
-    const float* here = window.values.data() +
-                        std::ptrdiff_t{tile_.first_row + bunch.row - window.first_row} * window.width +
-                        (tile_.first_column + bunch.column - window.first_column);
-    for (const NearSample& sample : azimuth_.near) {
-      const float* from = here + sample.offset[0];
-      const float* to = here + sample.offset[1];
-      const VF from_weight = hn::Set(kF, sample.weight[0]);
-      const VF to_weight = hn::Set(kF, sample.weight[1]);
-      const VF per_distance = hn::Set(kF, sample.per_distance);
-      for (std::size_t v = 0; v < kBunch; ++v) {
-        const std::size_t lane = v * hn::Lanes(kF);
-        const VF above =
-            hn::MulAdd(to_weight, hn::LoadU(kF, to + lane), hn::Mul(from_weight, hn::LoadU(kF, from + lane)));
-        bunch.slope[v] = hn::Max(bunch.slope[v], hn::NegMulAdd(per_distance, bunch.height[v], above));
+    for_near(bunch, azimuth_.near.size(), [&](const NearSample&, std::size_t v, VF seen) HWY_ATTR {
+      bunch.slope[v] = hn::Max(bunch.slope[v], seen);
+    });
+  }
+
+  /// Near samples within a reach, and the places where the stretches between them leave its sphere.
+  void look_near_within(const ReachTable& reach, Bunch& bunch) const {
+    std::array<VF, kBunch> begin_rise;
+    begin_rise.fill(hn::Zero(kF));
+    std::array<float, kBunch> begin_way{};
+    const VF squared = hn::Set(kF, reach.squared);
+    const VF deepest = hn::Set(kF, reach.deepest);
+    for_near(bunch, reach.near, [&](const NearSample& sample, std::size_t v, VF seen) HWY_ATTR {
+      const float way = 1 / sample.per_distance;
+      const VF rise = hn::Max(hn::Mul(seen, hn::Set(kF, way)), deepest);
+      const auto outside = hn::Gt(hn::MulAdd(rise, rise, hn::Set(kF, way * way)), squared);
+      bunch.slope[v] = hn::IfThenElse(outside, bunch.slope[v], hn::Max(bunch.slope[v], seen));
+      const VF begin = begin_rise[v];
+      const float before = begin_way[v];
+      const auto above = hn::And(hn::Gt(begin, hn::Zero(kF)),
+                                 hn::Gt(hn::MulAdd(begin, begin, hn::Set(kF, before * before)), squared));
+      const auto leaves = hn::AndNot(above, hn::And(outside, hn::Gt(begin, deepest)));
+      if (!hn::AllFalse(kF, leaves)) {
+        const VF slope = exit_slope(begin, before, rise, way, squared);
+        bunch.slope[v] = hn::IfThenElse(leaves, hn::Max(bunch.slope[v], slope), bunch.slope[v]);
       }
-    }
+      begin_rise[v] = rise;
+      begin_way[v] = way;
+    });
+  }
+
+  /// Rings within a reach, from every receiver for itself.
+  void look_at_rings_within(const ReachTable& reach, Bunch& bunch) const {
+    for_ring_samples(bunch, reach, [&](const RingSample&, float cap, std::size_t v, VF seen) HWY_ATTR {
+      bunch.slope[v] = hn::Max(bunch.slope[v], hn::Min(seen, hn::Set(kF, cap)));
+    });
+  }
+
+  /// Calls see(v, begin, before, rise, way, slope) for every stretch of the profile that begins within a
+  /// reach: from `before`, where it is `begin` higher than the receiver, to `way`, where it is `rise` higher
+  /// and seen under the slope.
+  template <class See>
+  HWY_INLINE void for_stretches(const ReachTable& reach, const Bunch& bunch, See&& see) const {
+    std::array<VF, kBunch> begin_rise;
+    begin_rise.fill(hn::Zero(kF));
+    std::array<float, kBunch> begin_way{};
+    const VF deepest = hn::Set(kF, reach.deepest);
+    const auto end_at = [&](float way, std::size_t v, VF seen) HWY_ATTR {
+      const VF rise = hn::Max(hn::Mul(seen, hn::Set(kF, way)), deepest);
+      see(v, begin_rise[v], begin_way[v], rise, way, seen);
+      begin_rise[v] = rise;
+      begin_way[v] = way;
+    };
+    for_near(bunch, reach.near, [&](const NearSample& sample, std::size_t v, VF seen) HWY_ATTR {
+      end_at(1 / sample.per_distance, v, seen);
+    });
+    for_ring_samples(bunch, reach, [&](const RingSample& sample, float, std::size_t v, VF seen) HWY_ATTR {
+      end_at(1 / sample.per_distance, v, seen);
+    });
   }
 
   /// The lines that the groups of the bunch keep.
-  void look_far(Bunch& bunch) const {
+  void look_far(const FarView& far, Bunch& bunch) const {
     constexpr int kSide = WalkTile::kGroup;
     const int lanes = static_cast<int>(hn::Lanes(kF));
     const auto group_of_lane = hn::ShiftRight<2>(hn::Iota(kI, 0));
@@ -111,8 +188,8 @@ class LaneWalk {
         const int group = bunch.row / kSide * (WalkTile::kSide / kSide) +
                           (bunch.column + static_cast<int>(v) * lanes) / kSide;
         const auto at = static_cast<std::size_t>(group);
-        const VF height = hn::TableLookupLanes(hn::LoadU(kF, far_.height[line].data() + at), order);
-        const VF per_d = hn::TableLookupLanes(hn::LoadU(kF, far_.per_distance[line].data() + at), order);
+        const VF height = hn::TableLookupLanes(hn::LoadU(kF, far.height[line].data() + at), order);
+        const VF per_d = hn::TableLookupLanes(hn::LoadU(kF, far.per_distance[line].data() + at), order);
         raise(bunch, v, height, hn::MulAdd(hn::Mul(nearer, per_d), per_d, per_d));
       }
     }
@@ -123,9 +200,70 @@ class LaneWalk {
     bunch.slope[v] = hn::Max(bunch.slope[v], hn::Mul(hn::Sub(height, bunch.height[v]), per_distance));
   }
 
+  /// Calls see(sample, v, slope) for the first near samples and each vector of the bunch.
+  template <class See>
+  HWY_INLINE void for_near(const Bunch& bunch, std::size_t count, See&& see) const {
+    const HeightWindow& window = tile_.windows[0];
+    const float* here = window.values.data() +
+                        std::ptrdiff_t{tile_.first_row + bunch.row - window.first_row} * window.width +
+                        (tile_.first_column + bunch.column - window.first_column);
+    for (std::size_t k = 0; k < count; ++k) {
+      const NearSample& sample = azimuth_.near[k];
+      const float* from = here + sample.offset[0];
+      const float* to = here + sample.offset[1];
+      const VF from_weight = hn::Set(kF, sample.weight[0]);
+      const VF to_weight = hn::Set(kF, sample.weight[1]);
+      const VF per_distance = hn::Set(kF, sample.per_distance);
+      for (std::size_t v = 0; v < kBunch; ++v) {
+        const std::size_t lane = v * hn::Lanes(kF);
+        const VF above =
+            hn::MulAdd(to_weight, hn::LoadU(kF, to + lane), hn::Mul(from_weight, hn::LoadU(kF, from + lane)));
+        see(sample, v, hn::NegMulAdd(per_distance, bunch.height[v], above));
+      }
+    }
+  }
+
+  /// Of the stretch from (before, begin) to (way, rise): sky_walk_scalar.cpp derives it.
+  static VF exit_slope(VF begin, float before, VF rise, float way, VF squared) {
+    constexpr float kRounding = 1e-5F;
+    const VF g = hn::Mul(hn::Sub(rise, begin), hn::Set(kF, 1 / run_between(before, way)));
+    const VF p = hn::NegMulAdd(g, hn::Set(kF, before), begin);
+    const VF u = hn::MulAdd(g, g, hn::Set(kF, 1.0F));
+    const VF root = hn::NegMulAdd(p, p, hn::Mul(squared, u));
+    const VF at = hn::Div(hn::NegMulAdd(p, g, hn::Sqrt(hn::Max(root, hn::Zero(kF)))), u);
+    const auto meets = hn::And(hn::And(hn::Ge(root, hn::Zero(kF)), hn::Lt(p, hn::Zero(kF))),
+                               hn::And(hn::Ge(at, hn::Set(kF, before * (1 - kRounding))),
+                                       hn::Le(at, hn::Set(kF, way * (1 + kRounding)))));
+    return hn::IfThenElse(meets, hn::Add(hn::Div(p, at), g), hn::Set(kF, kNoHeight));
+  }
+
+  /// Calls see(sample, cap, v, slope) for the ring samples within a reach and each vector of the bunch. Each
+  /// receiver looks at its own block: neighbours in a vector share some, which is a permutation of a load.
+  template <class See>
+  HWY_INLINE void for_ring_samples(const Bunch& bunch, const ReachTable& reach, See&& see) const {
+    for (std::size_t ring = 0; ring < reach.caps.size(); ++ring) {
+      const HeightWindow& window = tile_.windows[ring + 1];
+      const int level = window.level;
+      for (std::size_t k = 0; k < reach.caps[ring].size(); ++k) {
+        const RingSample& sample = azimuth_.rings[ring][k];
+        const int row = (tile_.first_row + bunch.row + sample.row) >> level;
+        const float* line = window.values.data() + std::ptrdiff_t{row - window.first_row} * window.width -
+                            window.first_column;
+        const VF per_distance = hn::Set(kF, sample.per_distance);
+        for (std::size_t v = 0; v < kBunch; ++v) {
+          const int first =
+              tile_.first_column + bunch.column + sample.column + static_cast<int>(v * hn::Lanes(kF));
+          const VI blocks = hn::ShiftRightSame(hn::Iota(kI, first & ((1 << level) - 1)), level);
+          const VF height =
+              hn::TableLookupLanes(hn::LoadU(kF, line + (first >> level)), hn::IndicesFromVec(kF, blocks));
+          see(sample, reach.caps[ring][k], v, hn::Mul(hn::Sub(height, bunch.height[v]), per_distance));
+        }
+      }
+    }
+  }
+
   const WalkTile& tile_;
   const AzimuthTable& azimuth_;
-  const FarView& far_;
 };
 
 }  // namespace heightlight::HWY_NAMESPACE

@@ -10,9 +10,8 @@
 namespace heightlight {
 namespace {
 
-double azimuth_rad(const WalkOptions& options, int k) {
-  return 2 * std::numbers::pi * (k + 0.25) / options.azimuths;
-}
+/// Of a unit vector in the plane. An azimuth along an axis misses it by the rounding of π.
+double snapped(double component) { return std::fabs(component) < 1e-15 ? 0.0 : component; }
 
 /// The sample at way t, where it is known on which line of the mesh that lies: between (row, column) and the
 /// next sample by (down, right), `share` of the way.
@@ -103,10 +102,13 @@ std::vector<RingSample> ring_samples(const GridDirection& g, int fineness, int r
 
 }  // namespace
 
-GridDirection grid_direction(const Surface& surface, const WalkOptions& options, int k) {
-  const double azimuth = azimuth_rad(options, k);
-  const double u = std::cos(azimuth) / surface.map.spacing.x;
-  const double v = -std::sin(azimuth) / surface.map.spacing.y;  // rows run down, y up
+double azimuth_rad(const WalkOptions& options, int k) {
+  return 2 * std::numbers::pi * (k + 0.25) / options.azimuths;
+}
+
+GridDirection grid_direction(const Surface& surface, double azimuth_rad) {
+  const double u = snapped(std::cos(azimuth_rad)) / surface.map.spacing.x;
+  const double v = -snapped(std::sin(azimuth_rad)) / surface.map.spacing.y;  // rows run down, y up
   const double texels = std::hypot(u, v);
   return {u / texels, v / texels, 1 / texels};
 }
@@ -134,12 +136,11 @@ int ring_count(const Surface& surface, const WalkOptions& options) {
   return rings;
 }
 
-AzimuthTable make_azimuth_table(const Surface& surface, const WalkOptions& options, int k) {
-  const double azimuth = azimuth_rad(options, k);
-  const GridDirection g = grid_direction(surface, options, k);
+AzimuthTable make_azimuth_table(const Surface& surface, const WalkOptions& options, double azimuth_rad) {
+  const GridDirection g = grid_direction(surface, azimuth_rad);
   AzimuthTable table;
-  table.world_x = static_cast<float>(std::cos(azimuth));
-  table.world_y = static_cast<float>(std::sin(azimuth));
+  table.world_x = static_cast<float>(snapped(std::cos(azimuth_rad)));
+  table.world_y = static_cast<float>(snapped(std::sin(azimuth_rad)));
   table.along_column = static_cast<float>(g.u * g.length);
   table.along_row = static_cast<float>(g.v * g.length);
   table.near = near_samples(g, options.fineness);

@@ -49,9 +49,11 @@ struct GridDirection {
   double length = 1;
 };
 
-/// Of azimuth k: φ_k = 2π (k + ¼) / K. The quarter keeps the azimuths of a scene that has a mirror's symmetry
+/// φ_k = 2π (k + ¼) / K of azimuth k. The quarter keeps the azimuths of a scene that has a mirror's symmetry
 /// from being the same twice.
-GridDirection grid_direction(const Surface& surface, const WalkOptions& options, int k);
+double azimuth_rad(const WalkOptions& options, int k);
+
+GridDirection grid_direction(const Surface& surface, double azimuth_rad);
 
 struct AzimuthTable {
   float world_x = 1;  ///< cos φ
@@ -72,9 +74,9 @@ constexpr int ring_level(int ring) { return ring + 1; }
 /// Texels beside a tile that its near samples reach.
 int near_reach(const WalkOptions& options);
 
-/// The table of azimuth k. Rings go on while the map's relief, seen from the ring's beginning, spans a slope
+/// The table of an azimuth. Rings go on while the map's relief, seen from the ring's beginning, spans a slope
 /// of more than 0.004, at most to four times the map's size, and for `open` maps to the far corner.
-AzimuthTable make_azimuth_table(const Surface& surface, const WalkOptions& options, int k);
+AzimuthTable make_azimuth_table(const Surface& surface, const WalkOptions& options, double azimuth_rad);
 
 /// Rings of any azimuth.
 int ring_count(const Surface& surface, const WalkOptions& options);

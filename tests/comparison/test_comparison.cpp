@@ -160,7 +160,8 @@ TEST_CASE("closed forms on the reference's own A are what the models say", "[com
   exact.sky_view_factor = scene.reference.sky_view_factor;
   for (const ClosedForm& form : closed_forms()) {
     const bool wants_alpha = form.kind == AoKind::ambient_occlusion;
-    CHECK(can_evaluate(form, exact) == (!wants_alpha && form.extra != ExtraInput::seen));
+    const bool wants_seen = form.extra == ExtraInput::seen || form.extra == ExtraInput::deep_seen;
+    CHECK(can_evaluate(form, exact) == (!wants_alpha && !wants_seen));
     if (form.name != "uniform_neighbourhood") continue;
     const Map total = evaluate_closed_form(form, exact, scene.surface, scene.albedos[0]);
     for (std::size_t i = 0; i < total.size(); ++i) {

@@ -42,6 +42,7 @@ const std::map<std::string, std::string> kLayerOfPublicHeader = {
     {"surface.h", "surface"},     {"visibility.h", "visibility"},
     {"transport.h", "transport"}, {"curves.h", "curves"},
     {"models.h", "models"},       {"screenspace.h", "screenspace"},
+    {"bake.h", "bake"},
 };
 
 /// Libraries, by how their headers' names begin, and the one layer that includes them.

@@ -45,7 +45,7 @@ inline WalkedSky walk_sky_with(LookFar look, WalkSky walk, const Surface& surfac
   for_tiles(surface, options, [&](const WalkTile& tile) {
     const auto sums = std::make_unique<SkySums>();
     for (int k = 0; k < options.azimuths; ++k) {
-      const AzimuthTable azimuth = make_azimuth_table(surface, options, k);
+      const AzimuthTable azimuth = make_azimuth_table(surface, options, azimuth_rad(options, k));
       look(tile, azimuth, result.views.emplace_back());
       walk(tile, azimuth, result.views.back(), *sums);
     }

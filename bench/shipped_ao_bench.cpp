@@ -1,0 +1,175 @@
+// Rank correlation (Spearman's) of baked ambient occlusion with the AO maps that came with real materials.
+// Their makers tell neither the relief nor the reach nor the gamma: the relief is searched for, without a
+// reach and with some, and only the order of values is compared.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bake/material.h"
+#include "heightlight/error.h"
+#include "io/image_file.h"
+#include "io/image_read.h"
+#include "plot/previews.h"
+
+namespace heightlight {
+namespace {
+
+/// Ranks, those of equal values averaged.
+std::vector<double> ranks_of(const std::vector<float>& values) {
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
+  std::vector<double> ranks(values.size());
+  for (std::size_t begin = 0; begin < order.size();) {
+    std::size_t end = begin;
+    while (end < order.size() && values[order[end]] == values[order[begin]]) ++end;
+    const double rank = 0.5 * static_cast<double>(begin + end - 1);
+    for (std::size_t i = begin; i < end; ++i) ranks[order[i]] = rank;
+    begin = end;
+  }
+  return ranks;
+}
+
+double correlation(const std::vector<double>& a, const std::vector<double>& b) {
+  const double n = static_cast<double>(a.size());
+  const double mean_a = std::accumulate(a.begin(), a.end(), 0.0) / n;
+  const double mean_b = std::accumulate(b.begin(), b.end(), 0.0) / n;
+  double ab = 0;
+  double aa = 0;
+  double bb = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    ab += (a[i] - mean_a) * (b[i] - mean_b);
+    aa += (a[i] - mean_a) * (a[i] - mean_a);
+    bb += (b[i] - mean_b) * (b[i] - mean_b);
+  }
+  return ab / std::sqrt(aa * bb);
+}
+
+std::vector<float> first_channel(const StoredImage& image) {
+  return std::visit(
+      [&](const auto& samples) {
+        std::vector<float> values;
+        for (std::size_t i = 0; i < samples.size(); i += image.channels.size()) {
+          values.push_back(static_cast<float>(samples[i]));
+        }
+        return values;
+      },
+      image.samples);
+}
+
+struct ShippedMaterial {
+  const char* name;
+  const char* heights;
+  const char* occlusion;
+};
+
+constexpr ShippedMaterial kMaterials[] = {
+    {"DiamondPlate008C", "DiamondPlate008C_height16.png", "DiamondPlate008C_ao.png"},
+    {"Ground054", "Ground054_height16.png", "Ground054_ao.png"},
+    {"Bricks102", "Bricks102_height.jpg", "Bricks102_ao.jpg"}};
+
+struct Search {
+  const Heightmap& unit;  ///< of relief 1
+  std::vector<double> shipped;
+  double error;
+
+  Map bake(double relief, const std::optional<Reach>& reach) const {
+    Heightmap map = unit;
+    for (float& height : map.height.values) height *= static_cast<float>(relief);
+    const Surface surface = build_surface(std::move(map));
+    BakeOptions options;
+    options.maps = {MaterialMap::ao};
+    options.error = error;
+    options.reach = reach;
+    return find_material(surface, options, "the map").sky.sky_view_factor;
+  }
+  double score(double relief, const std::optional<Reach>& reach) const {
+    return correlation(ranks_of(bake(relief, reach).values), shipped);
+  }
+};
+
+/// The best relief: a coarse ladder, then halved steps around its best rung.
+double best_relief(const Search& search, const std::optional<Reach>& reach, double& score) {
+  double best = 0.01;
+  score = -1;
+  const auto attempt = [&](double relief) {
+    const double found = search.score(relief, reach);
+    if (found <= score) return;
+    score = found;
+    best = relief;
+  };
+  for (double relief = 0.005; relief < 0.7; relief *= 2) attempt(relief);
+  for (double step = std::sqrt(2.0); step > 1.1; step = std::sqrt(step)) {
+    const double middle = best;
+    attempt(middle * step);
+    attempt(middle / step);
+  }
+  return best;
+}
+
+void judge(const std::filesystem::path& folder, const ShippedMaterial& material, double error,
+           const std::string& pictures) {
+  const std::filesystem::path heights = folder / material.heights;
+  if (!std::filesystem::exists(heights)) {
+    std::printf("%-17s is absent\n", material.name);
+    return;
+  }
+  constexpr std::uint64_t kMemory = std::uint64_t{1} << 32;
+  LoadOptions load;
+  load.relief = 1;
+  const Heightmap unit = load_heightmap(heights, load, kMemory).map;
+  const std::filesystem::path path = folder / material.occlusion;
+  const StoredImage image = read_image(path, recognise_format(path), kMemory);
+  if (image.width != unit.height.width || image.height != unit.height.height) {
+    throw Error(path.string() + ": not of its heightmap's size");
+  }
+  const std::vector<float> shipped = first_channel(image);
+  const Search search{unit, ranks_of(shipped), error};
+  for (const double share : {0.0, 0.1, 0.02}) {
+    const std::optional<Reach> reach =
+        share > 0 ? std::optional<Reach>{{share, Falloff::linear}} : std::nullopt;
+    double score = 0;
+    const double relief = best_relief(search, reach, score);
+    std::printf("%-17s %-10s %8.4f %8.3f\n", material.name,
+                share > 0 ? (share == 0.1 ? "10 %" : "2 %") : "unlimited", relief, score);
+    std::fflush(stdout);
+    if (pictures.empty()) continue;
+    Map theirs(unit.height.width, unit.height.height);
+    const float largest = *std::max_element(shipped.begin(), shipped.end());
+    std::transform(shipped.begin(), shipped.end(), theirs.values.begin(),
+                   [=](float v) { return v / largest; });
+    const std::filesystem::path stem = std::filesystem::path(pictures) / material.name;
+    write_png(stem.string() + "_shipped.png", grey_picture(theirs));
+    write_png(stem.string() + (share > 0 ? share == 0.1 ? "_10.png" : "_2.png" : "_unlimited.png"),
+              grey_picture(search.bake(relief, reach)));
+  }
+}
+
+}  // namespace
+}  // namespace heightlight
+
+int main(int argument_count, char** arguments) {
+  try {
+    double error = 0.01;
+    std::string pictures;
+    CLI::App app(
+        "Rank correlation with the AO maps that came with materials; the head of the source says more");
+    app.add_option("--error", error, "RMSE of the baked maps (0.01)");
+    app.add_option("--pictures", pictures, "folder for previews of both");
+    CLI11_PARSE(app, argument_count, arguments);
+    std::printf("%-17s %-10s %8s %8s\n", "material", "reach", "relief", "rank corr.");
+    const std::filesystem::path folder = std::filesystem::path(HEIGHTLIGHT_SHARED_DIR) / "data/material";
+    for (const heightlight::ShippedMaterial& material : heightlight::kMaterials) {
+      heightlight::judge(folder, material, error, pictures);
+    }
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "heightlight_shipped_ao_bench: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}

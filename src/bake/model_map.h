@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include "heightlight/transport.h"
+
+namespace heightlight {
+
+// The closed form G(A, n, ρ) of models.h (bounced_total) is exact at ρ = 0 and 1 whatever n is. Two channels,
+// A and the n that makes it exact at one more albedo, thus hold the bounces of all.
+
+/// Where n is fitted.
+constexpr double kFittedAlbedo = 0.8;
+
+/// Where the errors of the fit are measured, with kFittedAlbedo among them.
+const std::vector<double>& judged_albedos();
+
+/// RMS over the receivers of G less the simulation, with A and n as they are and rounded to 16 and 8 bits.
+struct ModelError {
+  double albedo = 0;
+  double rmse = 0;
+  double rmse_16_bits = 0;
+  double rmse_8_bits = 0;
+};
+
+/// n of every texel, NaN where the sample is missing; `total` is E/π at kFittedAlbedo.
+Map fit_model_map(const Map& sky_view_factor, const TexelVector& total);
+
+ModelError judge_model_map(const Map& sky_view_factor, const Map& n, const TexelVector& total, double albedo);
+
+/// The function that turns the two channels into E/π, for shaders.
+const char* model_shader_glsl();
+const char* model_shader_hlsl();
+
+}  // namespace heightlight

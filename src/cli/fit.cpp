@@ -1,0 +1,129 @@
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/fit_pictures.h"
+#include "cli/fit_report.h"
+#include "cli/map_options.h"
+#include "core/progress.h"
+#include "heightlight/error.h"
+#include "io/output_file.h"
+#include "io/staged_output.h"
+#include "models/shader_text.h"
+
+namespace heightlight {
+namespace {
+
+struct FitOptions {
+  std::vector<std::filesystem::path> curves;
+  std::filesystem::path folder;
+  int bootstrap = 200;
+  RunOptions run;
+};
+
+std::vector<JudgedMap> read_maps(const FitOptions& options) {
+  std::vector<JudgedMap> maps;
+  Progress progress("reading", static_cast<std::int64_t>(options.curves.size()), options.run.quiet);
+  for (const std::filesystem::path& path : options.curves) {
+    maps.push_back(read_judged_map(path, options.run.memory));
+    progress.add(1);
+  }
+  return maps;
+}
+
+/// The root mean square that the published parameters leave.
+double rms_as_published(const FormFamily& family, const std::vector<FitPoint>& points) {
+  const Eigen::VectorXd published = Eigen::Map<const Eigen::VectorXd>(
+      family.published.data(), static_cast<Eigen::Index>(family.published.size()));
+  const std::vector<double>& albedos = target_albedos(family.target);
+  ErrorTally tally;
+  for (const FitPoint& point : points) {
+    const ModelInputs inputs = tune_inputs(family, published, point.moments, point.inputs);
+    for (std::size_t k = 0; k < albedos.size(); ++k) {
+      tally.add(family.evaluate(published, inputs, albedos[k]) - point.measured[k], point.weight);
+    }
+  }
+  return tally.rms();
+}
+
+/// Families that no map has the inputs for are left out.
+std::vector<FittedFamily> fit_families(const FitOptions& options, const std::vector<JudgedMap>& maps) {
+  const std::vector<double> weights(maps.size(), 1);
+  std::vector<FittedFamily> fitted;
+  Progress progress("fitting", static_cast<std::int64_t>(form_families().size()), options.run.quiet);
+  for (const FormFamily& family : form_families()) {
+    const std::vector<FitPoint> points = collect_points(family, maps);
+    progress.add(1);
+    if (points.empty()) continue;
+    FittedFamily one{&family, fit_family(family, points, weights), {}, rms_as_published(family, points)};
+    one.intervals =
+        bootstrap_family(family, points, maps, one.fit.parameters, options.bootstrap, options.run.seed);
+    fitted.push_back(std::move(one));
+  }
+  return fitted;
+}
+
+std::vector<AlbedoCubic> cubics_by_albedo(const std::vector<JudgedMap>& maps, const char* name) {
+  for (const FormFamily& family : form_families()) {
+    if (family.name == name) return fit_cubics(collect_points(family, maps), target_albedos(family.target));
+  }
+  return {};
+}
+
+void fit(FitOptions& options) {
+  apply_run_options(options.run);
+  if (options.bootstrap < 20 || options.bootstrap > 100000) {
+    throw UsageError("--bootstrap " + std::to_string(options.bootstrap) + ": must be from 20 to 100000");
+  }
+  FitReport report;
+  report.inputs = options.curves;
+  report.seed = options.run.seed;
+  report.maps = read_maps(options);
+  StagedFolder folder(options.folder);
+  report.families = fit_families(options, report.maps);
+  report.cubics_three_bounces = cubics_by_albedo(report.maps, "cubic_three_bounces");
+  report.cubics_all_bounces = cubics_by_albedo(report.maps, "cubic");
+  report.trial = cross_validate(report.maps, options.run.quiet);
+  report.floors = find_floors(report.maps);
+
+  write_bytes(folder.file("models.json"), report_json(report));
+  write_bytes(folder.file("models.csv"), report_csv(report));
+  const ShaderConstants constants = shader_constants(report);
+  write_bytes(folder.file("models.glsl"), shader_text(ShaderLanguage::glsl, constants));
+  write_bytes(folder.file("models.hlsl"), shader_text(ShaderLanguage::hlsl, constants));
+  plot_fitted(folder.file("fitted.svg"), folder.file("fitted.png"), fitted_panels(report));
+  const bool by_texel = !report.trial.per_texel.empty();
+  plot_errors(folder.file("errors.svg"), folder.file("errors.png"),
+              by_texel ? report.trial.per_texel : report.trial.per_bin);
+  plot_cubics(folder.file("cubic.svg"), folder.file("cubic.png"), cubic_panel(report));
+  folder.commit();
+  if (options.run.quiet) return;
+  print_report(report);
+  std::printf("results in %s\n", options.folder.c_str());
+}
+
+}  // namespace
+
+void add_fit_command(CLI::App& app) {
+  auto* command = app.add_subcommand(
+      "fit", "Closed forms of the total irradiance: fitted, and judged on maps that no fit saw");
+  auto options = std::make_shared<FitOptions>();
+  command->add_option("CURVES", options->curves, "curves.csv of simulate, one or many")->required();
+  command->add_option("-o,--output", options->folder, "folder for the results")->type_name("DIR")->required();
+  command->add_option("--bootstrap", options->bootstrap, "draws for the intervals of parameters (200)");
+  add_run_options(*command, options->run);
+  command->footer(
+      "Where simulate --save-bounces left every bounce beside a curves.csv, forms are judged texel by texel "
+      "too.\n"
+      "Maps whose names begin alike, up to the first _ - or . and without digits, are one material; each "
+      "material\n"
+      "is judged by what was fitted to the others.\n"
+      "Writes models.json, models.csv, models.glsl, models.hlsl, and plots: fitted, errors, cubic.\n"
+      "Examples:\n"
+      "  heightlight fit wall/curves.csv -o models\n"
+      "  heightlight fit runs/*/curves.csv -o models");
+  command->callback([options] { fit(*options); });
+}
+
+}  // namespace heightlight

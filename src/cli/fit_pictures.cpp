@@ -1,0 +1,131 @@
+#include "cli/fit_pictures.h"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+
+namespace heightlight {
+namespace {
+
+constexpr std::size_t kBins = 50;
+
+double shown_albedo(std::size_t k) { return static_cast<double>(k) / 10; }
+
+/// Bin means of all maps together, at ρ = 0, 0.1 … 1: AO, then totals. Rows of NaN where no texel is.
+PlotTable measured_table(const std::vector<JudgedMap>& maps, AoKind kind) {
+  PlotTable sums(kBins, std::vector<double>(12));
+  std::vector<double> weights(kBins);
+  for (const JudgedMap& map : maps) {
+    const BounceCurves& curves = kind == AoKind::ambient_occlusion ? map.over_alpha : map.over_sky;
+    double texels = 0;
+    for (const CurveBin& bin : curves.filled) texels += static_cast<double>(bin.count);
+    for (const CurveBin& bin : curves.filled) {
+      const std::size_t place =
+          std::min(kBins - 1, static_cast<std::size_t>(clamp_share(bin.ao_mean) * kBins));
+      const double weight = static_cast<double>(bin.count) / texels;
+      weights[place] += weight;
+      sums[place][0] += weight * bin.ao_mean;
+      for (std::size_t k = 0; k <= 10; ++k) sums[place][k + 1] += weight * bin_total(bin, shown_albedo(k));
+    }
+  }
+  for (std::size_t i = 0; i < kBins; ++i) {
+    for (double& sum : sums[i])
+      sum = weights[i] > 0 ? sum / weights[i] : std::numeric_limits<double>::quiet_NaN();
+  }
+  return sums;
+}
+
+using TotalOfAo = std::function<double(double ao, double albedo)>;
+
+PlotTable fitted_table(const TotalOfAo& total) {
+  PlotTable table;
+  for (int i = 0; i <= 100; ++i) {
+    std::vector<double> row{i / 100.0};
+    for (std::size_t k = 0; k <= 10; ++k) row.push_back(total(i / 100.0, shown_albedo(k)));
+    table.push_back(row);
+  }
+  return table;
+}
+
+FittedPanel panel(const FitReport& report, const std::string& title, AoKind kind, const TotalOfAo& total) {
+  return {title, kind, measured_table(report.maps, kind), fitted_table(total)};
+}
+
+CubicConstants cubic_line(const FitReport& report, const char* name) {
+  const FittedFamily* fitted = find_family(report, name);
+  if (!fitted) return {};
+  const Eigen::VectorXd& p = fitted->fit.parameters;
+  return {p[0], p[1], p[2], p[3], p[4], p[5]};
+}
+
+}  // namespace
+
+std::vector<FittedPanel> fitted_panels(const FitReport& report) {
+  constexpr AoKind kAlpha = AoKind::ambient_occlusion;
+  constexpr AoKind kSky = AoKind::sky_view_factor;
+  std::vector<FittedPanel> panels;
+  panels.push_back(panel(report, "notes, as published", kAlpha, [](double ao, double albedo) {
+    return notes_total(AmbientOcclusion(ao), albedo).value_or(std::numeric_limits<double>::quiet_NaN());
+  }));
+  const NotesConstants notes = refitted_notes(report);
+  panels.push_back(panel(report, "notes, fitted here", kAlpha, [notes](double ao, double albedo) {
+    return notes_total_guarded(AmbientOcclusion(ao), albedo, notes);
+  }));
+  panels.push_back(panel(report, "A/(1 - ρ(1 - A))", kSky, [](double ao, double albedo) {
+    return uniform_neighbourhood(SkyViewFactor(ao), albedo);
+  }));
+  panels.push_back(panel(report, "cubic, as published", kSky,
+                         [](double ao, double albedo) { return cubic_total(SkyViewFactor(ao), albedo); }));
+  const CubicConstants cubic = cubic_line(report, "cubic");
+  panels.push_back(
+      panel(report, "cubic, fitted here to all bounces", kSky,
+            [cubic](double ao, double albedo) { return cubic_total(SkyViewFactor(ao), albedo, cubic); }));
+  if (const FittedFamily* fitted = find_family(report, "seen_from_sky")) {
+    panels.push_back(
+        panel(report, "G(A, n, ρ), n from A, fitted here", kSky, [fitted](double ao, double albedo) {
+          ModelInputs inputs;
+          inputs.sky_view_factor = SkyViewFactor(ao);
+          return fitted->family->evaluate(fitted->fit.parameters, inputs, albedo);
+        }));
+  }
+  return panels;
+}
+
+CubicPanel cubic_panel(const FitReport& report) {
+  return {report.cubics_three_bounces, report.cubics_all_bounces, cubic_line(report, "cubic_three_bounces"),
+          cubic_line(report, "cubic")};
+}
+
+NotesConstants refitted_notes(const FitReport& report) {
+  NotesConstants notes;
+  const FittedFamily* direct = find_family(report, "notes_direct_bounded");
+  const FittedFamily* first = find_family(report, "notes_first_bounce");
+  if (!direct || !first) return notes;
+  return {direct->fit.parameters[0], 1, first->fit.parameters[0], first->fit.parameters[1]};
+}
+
+ShaderConstants shader_constants(const FitReport& report) {
+  ShaderConstants constants;
+  constants.notes = refitted_notes(report);
+  constants.cubic = cubic_line(report, "cubic");
+  if (const FittedFamily* sky = find_family(report, "seen_from_sky")) {
+    constants.seen.offset = sky->fit.parameters[0];
+    constants.seen.slope = sky->fit.parameters[1];
+  }
+  if (const FittedFamily* map = find_family(report, "seen_from_map")) {
+    constants.seen.map_offset = map->fit.parameters[0];
+    constants.seen.map_slope = map->fit.parameters[1];
+    constants.seen.map_curvature = map->fit.parameters[2];
+  }
+  if (const FittedFamily* deep = find_family(report, "seen_from_deep")) {
+    constants.seen.deep_slope = deep->fit.parameters[0];
+    constants.seen.deep_bend = deep->fit.parameters[1];
+  }
+  if (const FittedFamily* blur = find_family(report, "seen_from_blur")) {
+    constants.seen.blur_offset = blur->fit.parameters[0];
+    constants.seen.blur_slope = blur->fit.parameters[1];
+  }
+  return constants;
+}
+
+}  // namespace heightlight
