@@ -62,7 +62,7 @@ std::uint64_t bytes_per_texel(const Needs& needs, const BakeOptions& options) {
   constexpr std::uint64_t kGathers = 62;
   const std::size_t varying = options.albedo.varying.size();
   const std::size_t totals =
-      (needs.bounces ? options.albedo.channels() : 0) + (needs.model ? judged_albedos().size() : 0);
+      (needs.bounces ? options.albedo.channels() : 0) + (needs.model ? checked_albedos().size() : 0);
   return bytes + kGathers + 8 * (totals + varying) + (needs.bounces && varying > 0 ? 64 : 0);
 }
 
@@ -85,7 +85,7 @@ void find_totals(const Transport& transport, const Needs& needs, const BakeOptio
   std::vector<double> albedos;
   if (needs.bounces) albedos = options.albedo.constant;
   const std::size_t own = albedos.size();
-  if (needs.model) albedos.insert(albedos.end(), judged_albedos().begin(), judged_albedos().end());
+  if (needs.model) albedos.insert(albedos.end(), checked_albedos().begin(), checked_albedos().end());
   if (!albedos.empty()) {
     TotalIrradiance solved = solve_totals(transport, albedos, kBounceShare * options.error, options.quiet);
     material.bounces = solved.bounces;
@@ -123,7 +123,7 @@ void check_totals(const Transport& transport, const BakeOptions& options,
 }
 
 void find_model(const Transport& transport, const std::vector<TexelVector>& judged, Material& material) {
-  const std::vector<double>& albedos = judged_albedos();
+  const std::vector<double>& albedos = checked_albedos();
   const auto fitted =
       static_cast<std::size_t>(std::find(albedos.begin(), albedos.end(), kFittedAlbedo) - albedos.begin());
   material.whole_sky = transport.sky_view_factor;

@@ -14,7 +14,7 @@ double rounded(double value, int levels) { return std::round(value * levels) / l
 
 }  // namespace
 
-const std::vector<double>& judged_albedos() {
+const std::vector<double>& checked_albedos() {
   static const std::vector<double> kAlbedos{0.2, 0.5, kFittedAlbedo, 0.9};
   return kAlbedos;
 }

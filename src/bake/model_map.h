@@ -13,7 +13,7 @@ namespace heightlight {
 constexpr double kFittedAlbedo = 0.8;
 
 /// Where the errors of the fit are measured, with kFittedAlbedo among them.
-const std::vector<double>& judged_albedos();
+const std::vector<double>& checked_albedos();
 
 /// RMS over the receivers of G less the simulation, with A and n as they are and rounded to 16 and 8 bits.
 struct ModelError {
