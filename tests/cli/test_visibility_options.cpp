@@ -43,7 +43,7 @@ TEST_CASE("simulate walks horizons unless told otherwise, and says how, and how 
   CHECK(visibility["checked"]["total_rmse"].get<double>() < 1.5 * 0.002);
 }
 
-TEST_CASE("--error buys accuracy with azimuths, which --azimuths fixes", "[cli]") {
+TEST_CASE("the option --error buys accuracy with azimuths, which --azimuths fixes", "[cli]") {
   const ScratchFolder folder;
   REQUIRE(run_command("synth fbm -o f.exr --size 96", folder).exit_code == 0);
   const nlohmann::json coarse = simulate(folder, "f.exr", "coarse", "--relief 0.3 --error 0.02");
@@ -55,7 +55,7 @@ TEST_CASE("--error buys accuracy with azimuths, which --azimuths fixes", "[cli]"
   CHECK(fixed["visibility"]["azimuths"] == 30);
 }
 
-TEST_CASE("--error 0 takes exact slices, as many as --azimuths says", "[cli]") {
+TEST_CASE("the option --error 0 takes exact slices, as many as --azimuths says", "[cli]") {
   const ScratchFolder folder;
   REQUIRE(run_command("synth brick -o b.png --size 32", folder).exit_code == 0);
   const auto [options, azimuths] =
@@ -71,7 +71,7 @@ TEST_CASE("--error 0 takes exact slices, as many as --azimuths says", "[cli]") {
   CHECK(summary["visibility"]["checked"]["total_rmse"].get<double>() < 2e-3);
 }
 
-TEST_CASE("--rays N implies rays, and --visibility rays has a number of them", "[cli]") {
+TEST_CASE("the option --rays N implies rays, and --visibility rays has a number of them", "[cli]") {
   const ScratchFolder folder;
   REQUIRE(run_command("synth brick -o b.png --size 24", folder).exit_code == 0);
   const auto [options, rays] = GENERATE(std::pair{"--rays 40", 40}, std::pair{"--visibility rays", 300},
