@@ -11,11 +11,11 @@
 
 #include "core/byte_size.h"
 #include "core/parallel.h"
+#include "core/stopwatch.h"
 #include "heightlight/bake.h"
 #include "heightlight/error.h"
 #include "heightlight/synth.h"
 #include "io/image_file.h"
-#include "stopwatch.h"
 #include "visibility/horizon_sky.h"
 
 namespace heightlight {

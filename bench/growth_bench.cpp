@@ -22,9 +22,9 @@
 
 #include "bench_map.h"
 #include "core/parallel.h"
+#include "core/stopwatch.h"
 #include "heightlight/error.h"
 #include "heightlight/transport.h"
-#include "stopwatch.h"
 #include "transport/horizon_plan.h"
 #include "visibility/horizon_sky.h"
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "core/stopwatch.h"
 #include "heightlight/image.h"
 #include "receivers.h"
-#include "stopwatch.h"
 
 namespace heightlight {
 

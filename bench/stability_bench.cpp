@@ -15,10 +15,10 @@
 #include <string>
 #include <vector>
 
+#include "core/stopwatch.h"
 #include "heightlight/error.h"
 #include "heightlight/transport.h"
 #include "stability/hard_maps.h"
-#include "stopwatch.h"
 #include "visibility/exact_walk.h"
 
 namespace heightlight {

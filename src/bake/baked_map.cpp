@@ -134,7 +134,7 @@ const char* definition(MaterialMap map, const BakeOptions& options) {
     case MaterialMap::normal:
       return "unit normal of the surface, from central differences";
     case MaterialMap::ao_n:
-      return "A = (1/pi) int V cos(theta) dw, and n, fitted at albedo 0.8: E/pi at any albedo r is "
+      return "A = (1/pi) int V cos(theta) dw, and n, solved for at albedo 0.7: E/pi at any albedo r is "
              "A + r (1 - A) n / (1 - r (1 - n))";
     case MaterialMap::horizon:
       return "elevation of the horizon above the horizontal (at least the tangent plane's), toward azimuths "

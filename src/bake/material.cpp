@@ -125,7 +125,7 @@ void check_totals(const Transport& transport, const BakeOptions& options,
 void find_model(const Transport& transport, const std::vector<TexelVector>& judged, Material& material) {
   const std::vector<double>& albedos = checked_albedos();
   const auto fitted =
-      static_cast<std::size_t>(std::find(albedos.begin(), albedos.end(), kFittedAlbedo) - albedos.begin());
+      static_cast<std::size_t>(std::find(albedos.begin(), albedos.end(), kSeenAlbedo) - albedos.begin());
   material.whole_sky = transport.sky_view_factor;
   material.model_n = fit_model_map(material.whole_sky, judged[fitted]);
   for (std::size_t i = 0; i < albedos.size(); ++i) {

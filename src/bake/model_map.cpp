@@ -15,7 +15,7 @@ double rounded(double value, int levels) { return std::round(value * levels) / l
 }  // namespace
 
 const std::vector<double>& checked_albedos() {
-  static const std::vector<double> kAlbedos{0.2, 0.5, kFittedAlbedo, 0.9};
+  static const std::vector<double> kAlbedos{0.2, 0.5, kSeenAlbedo, 0.9};
   return kAlbedos;
 }
 
@@ -25,12 +25,11 @@ Map fit_model_map(const Map& sky_view_factor, const TexelVector& total) {
     const std::size_t begin = n.index(static_cast<int>(row), 0);
     for (std::size_t i = begin; i < begin + static_cast<std::size_t>(n.width); ++i) {
       const auto sky = static_cast<double>(sky_view_factor.values[i]);
-      n.values[i] =
-          std::isnan(sky)
-              ? std::numeric_limits<float>::quiet_NaN()
-              : static_cast<float>(
-                    seen_from_total(SkyViewFactor(sky), total[static_cast<Eigen::Index>(i)], kFittedAlbedo)
-                        .value);
+      n.values[i] = std::isnan(sky)
+                        ? std::numeric_limits<float>::quiet_NaN()
+                        : static_cast<float>(seen_from_total(SkyViewFactor(sky),
+                                                             total[static_cast<Eigen::Index>(i)], kSeenAlbedo)
+                                                 .value);
     }
   });
   return n;

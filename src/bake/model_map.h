@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "heightlight/models.h"
 #include "heightlight/transport.h"
 
 namespace heightlight {
@@ -9,10 +10,7 @@ namespace heightlight {
 // The closed form G(A, n, ρ) of models.h (bounced_total) is exact at ρ = 0 and 1 whatever n is. Two channels,
 // A and the n that makes it exact at one more albedo, thus hold the bounces of all.
 
-/// Where n is fitted.
-constexpr double kFittedAlbedo = 0.8;
-
-/// Where the errors of the fit are measured, with kFittedAlbedo among them.
+/// Where the errors of the fit are measured, with kSeenAlbedo, where n is solved for, among them.
 const std::vector<double>& checked_albedos();
 
 /// RMS over the receivers of G less the simulation, with A and n as they are and rounded to 16 and 8 bits.
@@ -23,7 +21,7 @@ struct ModelError {
   double rmse_8_bits = 0;
 };
 
-/// n of every texel, NaN where the sample is missing; `total` is E/π at kFittedAlbedo.
+/// n of every texel, NaN where the sample is missing; `total` is E/π at kSeenAlbedo.
 Map fit_model_map(const Map& sky_view_factor, const TexelVector& total);
 
 ModelError judge_model_map(const Map& sky_view_factor, const Map& n, const TexelVector& total, double albedo);

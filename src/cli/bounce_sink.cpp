@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "cli/simulation_files.h"
-#include "cli/stop_watch.h"
+#include "core/stopwatch.h"
 #include "heightlight/models.h"
 
 namespace heightlight {
@@ -25,7 +25,7 @@ BounceSink::BounceSink(const Transport& transport, const Surface& surface, const
 }
 
 void BounceSink::take(int b, const TexelVector& irradiance) {
-  StopWatch watch;
+  Stopwatch watch;
   alpha_.add(irradiance);
   sky_.add(irradiance);
   seconds_ += watch.lap();

@@ -9,8 +9,8 @@
 #include "cli/dataset_runs.h"
 #include "cli/dataset_tables.h"
 #include "cli/manifest.h"
-#include "cli/stop_watch.h"
 #include "core/progress.h"
+#include "core/stopwatch.h"
 #include "heightlight/error.h"
 #include "heightlight/synth.h"
 #include "io/folder_lock.h"
@@ -87,7 +87,7 @@ void do_runs(const std::vector<DatasetRun*>& runs, bool quiet) {
   for (std::size_t i = 0; i < runs.size(); ++i) {
     DatasetRun& run = *runs[i];
     Progress::set_context("run " + std::to_string(i + 1) + " of " + std::to_string(runs.size()) + ": ");
-    StopWatch watch;
+    Stopwatch watch;
     run.fault = try_run(run, made);
     Progress::set_context("");
     if (!run.fault.empty()) {

@@ -8,7 +8,7 @@
 #include "models/cross_validation.h"
 #include "models/cubic_by_albedo.h"
 #include "models/floors.h"
-#include "models/form_family.h"
+#include "models/bootstrap.h"
 
 namespace heightlight {
 

@@ -6,8 +6,8 @@
 #include "cli/simulation.h"
 #include "cli/simulation_files.h"
 #include "cli/solve_bounces.h"
-#include "cli/stop_watch.h"
 #include "core/byte_size.h"
+#include "core/stopwatch.h"
 #include "heightlight/error.h"
 #include "io/input_file.h"
 #include "plot/curve_plots.h"
@@ -78,7 +78,7 @@ LoadedHeightmap load_input(const SimulateOptions& options) {
 /// Finds visibility, and notes how.
 std::unique_ptr<Transport> find_transport(const SimulateOptions& options, const Surface& surface,
                                           std::uint64_t link_memory, Simulation& simulation) {
-  StopWatch watch;
+  Stopwatch watch;
   FoundVisibility found =
       find_visibility(surface, options.visibility, options.run, options.map.path.string(), link_memory);
   simulation.plan = found.plan;
@@ -93,7 +93,7 @@ std::unique_ptr<Transport> find_transport(const SimulateOptions& options, const 
 /// The curves, and their figure with a study of the relief.
 void write_curves(StagedFolder& folder, const SimulateOptions& options, const Surface& surface,
                   const std::vector<BounceCurves>& curves, StepTimes& seconds) {
-  StopWatch watch;
+  Stopwatch watch;
   write_curves_csv(folder.file("curves.csv"), curves);
   const std::vector<ReliefCurves> study =
       study_reliefs(surface.map, kStudiedReliefs, kStudySide, 1, kStudyBins, options.run.quiet);
@@ -116,8 +116,8 @@ void check_simulate_options(const SimulateOptions& options) {
 }
 
 Simulation simulate_map(const SimulateOptions& options) {
-  StopWatch total;
-  StopWatch watch;
+  Stopwatch total;
+  Stopwatch watch;
   Simulation simulation;
   StepTimes& seconds = simulation.seconds;
   check_simulate_options(options);

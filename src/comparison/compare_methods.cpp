@@ -41,11 +41,8 @@ class RowWriter {
         const Stopwatch watch;
         const Map total = evaluate_closed_form(form, estimate, scene_.surface, scene_.albedos[a]);
         const Cost own = watch.elapsed();
-        rows_.push_back({contender.method,
-                         contender.parameters + "; " + form.name,
-                         total_quantity(scene_.albedos[a]),
-                         {cost.seconds + own.seconds, cost.core_seconds + own.core_seconds},
-                         estimate.samples_per_texel,
+        rows_.push_back({contender.method, contender.parameters + "; " + form.name,
+                         total_quantity(scene_.albedos[a]), cost + own, estimate.samples_per_texel,
                          measure(subtract(total, reference_.totals[a]))});
       }
     }

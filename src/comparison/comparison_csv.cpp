@@ -10,7 +10,7 @@ void write_comparison_csv(const std::filesystem::path& path, const std::vector<C
                file);
     for (const ComparisonRow& row : rows) {
       std::fprintf(file, "%s,%s,%s,%.6g,%.6g,", row.method.c_str(), row.parameters.c_str(),
-                   row.quantity.c_str(), row.cost.seconds, row.cost.core_seconds);
+                   row.quantity.c_str(), row.cost.wall, row.cost.core);
       if (row.samples_per_texel > 0) std::fprintf(file, "%g", row.samples_per_texel);
       std::fprintf(file, ",%.6g,%.6g,%.6g,%.6g,", row.error.rmse, row.error.bias, row.error.p99,
                    row.error.largest);

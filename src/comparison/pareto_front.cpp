@@ -12,7 +12,7 @@ std::vector<const ComparisonRow*> pareto_front(const std::vector<ComparisonRow>&
     if (row.quantity == quantity && row.method != kExactMethod) candidates.push_back(&row);
   }
   std::stable_sort(candidates.begin(), candidates.end(), [](const ComparisonRow* a, const ComparisonRow* b) {
-    return a->cost.core_seconds < b->cost.core_seconds;
+    return a->cost.core < b->cost.core;
   });
   std::vector<const ComparisonRow*> front;
   double least = std::numeric_limits<double>::infinity();

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "comparison/stopwatch.h"
+#include "core/stopwatch.h"
 #include "heightlight/transport.h"
 
 namespace heightlight {

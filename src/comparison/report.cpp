@@ -24,10 +24,10 @@ void write_reference(std::FILE* file, const ReportInput& input) {
       "A and bent normals: exact walks along %d azimuths from every texel (%.3g core-seconds). On %d "
       "texels, RMSE against %d azimuths: A %.2g, bent normal %.2g°; against %d rays, whose own noise is "
       "in it: A %.2g.\n\n",
-      reference.azimuths, reference.cost.core_seconds, reference.checked, kCheckAzimuths, reference.sky_rmse,
+      reference.azimuths, reference.cost.core, reference.checked, kCheckAzimuths, reference.sky_rmse,
       reference.bent_rmse_deg, kCheckRays, reference.ray_rmse);
   std::fprintf(file, "Total irradiance: horizon walks planned for an error (%.3g core-seconds).",
-               reference.total_cost.core_seconds);
+               reference.total_cost.core);
   for (std::size_t a = 0; a < reference.total_rmse.size(); ++a) {
     std::fprintf(file, " Albedo %s: RMSE %.2g against exact gathers.", input.scene.albedos[a].label.c_str(),
                  reference.total_rmse[a]);
@@ -37,12 +37,12 @@ void write_reference(std::FILE* file, const ReportInput& input) {
       "\n\nNo error below the reference's own means anything. Core-seconds are processor time in this "
       "process, the least of up to three runs. Screen-space methods are given their depth buffer "
       "(%.2g core-seconds); rays and walks set up everything.\n\n",
-      input.depth_cost.core_seconds);
+      input.depth_cost.core);
 }
 
 void write_row(std::FILE* file, const ComparisonRow& row) {
   std::fprintf(file, "%s (%s) | %.3g | %.2g | %+.2g | %.2g |\n", row.method.c_str(), row.parameters.c_str(),
-               row.cost.core_seconds, row.error.rmse, row.error.bias, row.error.p99);
+               row.cost.core, row.error.rmse, row.error.bias, row.error.p99);
 }
 
 void write_cheapest(std::FILE* file, const ReportInput& input, const std::string& quantity) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "models/error_tally.h"
-#include "models/form_family.h"
+#include "models/fit_points.h"
 
 namespace heightlight {
 

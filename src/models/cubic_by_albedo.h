@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "models/form_family.h"
+#include "models/fit_points.h"
 
 namespace heightlight {
 

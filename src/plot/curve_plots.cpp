@@ -9,6 +9,7 @@
 
 #include "io/output_file.h"
 #include "plot/curve_tables.h"
+#include "plot/gnuplot_run.h"
 
 namespace heightlight {
 namespace {
@@ -16,13 +17,6 @@ namespace {
 // Every axis has a fixed range, so that gnuplot never has to find one among no points. Bounces are coloured
 // by a viridis without its palest end; other lines by Okabe and Ito's colours for the colour-blind.
 constexpr const char* kStyle = R"(
-set encoding utf8
-set style line 100 lc rgb '#dddddd' lw 0.7
-set grid ls 100 back
-set border lw 0.8 lc rgb '#444444'
-set tics scale 0.6 nomirror
-set xrange [0:1]
-set xtics 0.2
 set samples 201
 set palette defined (0 '#440154', 1 '#46327e', 2 '#365c8d', 3 '#277f8e', 4 '#1fa187', 5 '#4ac16d', 6 '#a0da39', 7 '#d5e21a')
 set cbrange [0:K > 0 ? K : 1]
@@ -183,7 +177,7 @@ GnuplotResult draw_curves(const std::string& terminal, const CurvePlotInput& inp
   return run_gnuplot([&](Gnuplot& script) {
     script << "set terminal " << terminal << '\n';
     send_data(script, input);
-    script << kStyle << "set multiplot layout 3,2 title " << gnuplot_quoted(input.title)
+    script << kShareAxisStyle << kStyle << "set multiplot layout 3,2 title " << gnuplot_quoted(input.title)
            << " font ':Bold,19' noenhanced\n";
     for (const char* panel : {kBouncePanel, kSurfacePanel, kSumPanel, kDirectPanel, kCountPanel})
       script << panel;

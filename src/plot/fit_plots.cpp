@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "io/output_file.h"
+#include "plot/gnuplot_run.h"
 
 namespace heightlight {
 namespace {
@@ -16,13 +17,6 @@ using gnuplotio::Gnuplot;
 
 // Axes are fixed, so that gnuplot never has to find a range among no points.
 constexpr const char* kStyle = R"(
-set encoding utf8
-set style line 100 lc rgb '#dddddd' lw 0.7
-set grid ls 100 back
-set border lw 0.8 lc rgb '#444444'
-set tics scale 0.6 nomirror
-set xrange [0:1]
-set xtics 0.2
 set palette defined (0 '#440154', 1 '#46327e', 2 '#365c8d', 3 '#277f8e', 4 '#1fa187', 5 '#4ac16d', 6 '#a0da39')
 set cbrange [0:1]
 unset colorbox
@@ -100,7 +94,7 @@ PlotTable coefficient_table(const std::vector<AlbedoCubic>& cubics) {
 
 GnuplotResult draw_fitted(const std::string& terminal, const std::vector<FittedPanel>& panels) {
   return run_gnuplot([&](Gnuplot& script) {
-    script << "set terminal " << terminal << '\n' << kStyle << "set yrange [0:1.05]\n";
+    script << "set terminal " << terminal << '\n' << kShareAxisStyle << kStyle << "set yrange [0:1.05]\n";
     for (std::size_t i = 0; i < panels.size(); ++i) {
       send_table(script, "measured" + std::to_string(i), panels[i].measured);
       send_table(script, "fitted" + std::to_string(i), panels[i].fitted);
@@ -122,7 +116,8 @@ GnuplotResult draw_fitted(const std::string& terminal, const std::vector<FittedP
 
 GnuplotResult draw_errors(const std::string& terminal, const std::vector<JudgedForm>& forms) {
   return run_gnuplot([&](Gnuplot& script) {
-    script << "set terminal " << terminal << '\n' << kStyle << "set yrange [0:0.3]\nset cbrange [0:8]\n";
+    script << "set terminal " << terminal << '\n'
+           << kShareAxisStyle << kStyle << "set yrange [0:0.3]\nset cbrange [0:8]\n";
     for (std::size_t i = 0; i < forms.size(); ++i) {
       send_table(script, "errors" + std::to_string(i), error_table(forms[i]));
     }
@@ -139,7 +134,7 @@ GnuplotResult draw_errors(const std::string& terminal, const std::vector<JudgedF
 
 GnuplotResult draw_cubics(const std::string& terminal, const CubicPanel& cubics) {
   return run_gnuplot([&](Gnuplot& script) {
-    script << "set terminal " << terminal << '\n' << kStyle << std::setprecision(8);
+    script << "set terminal " << terminal << '\n' << kShareAxisStyle << kStyle << std::setprecision(8);
     send_table(script, "three", coefficient_table(cubics.three_bounces));
     send_table(script, "all", coefficient_table(cubics.all_bounces));
     script << "set multiplot layout 1,3\nset xlabel 'albedo ρ'\nset yrange [*:*]\nset key top left\n";

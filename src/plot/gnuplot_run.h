@@ -20,6 +20,17 @@ struct GnuplotResult {
 /// Error naming gnuplot when it is not installed or fails.
 GnuplotResult run_gnuplot(const std::function<void(gnuplotio::Gnuplot&)>& write_script);
 
+/// Commands for the look that plots over an AO share: grid, border, tics, and an x axis from 0 to 1.
+constexpr const char* kShareAxisStyle = R"(
+set encoding utf8
+set style line 100 lc rgb '#dddddd' lw 0.7
+set grid ls 100 back
+set border lw 0.8 lc rgb '#444444'
+set tics scale 0.6 nomirror
+set xrange [0:1]
+set xtics 0.2
+)";
+
 /// `text` as a gnuplot string, whatever characters it has.
 std::string gnuplot_quoted(const std::string& text);
 

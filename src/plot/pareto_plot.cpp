@@ -65,7 +65,7 @@ Points points_of(const std::vector<ComparisonRow>& rows, const std::string& quan
   Points points;
   for (const ComparisonRow& row : rows) {
     if (row.quantity == quantity && row.method == method && row.error.rmse > 0) {
-      points.push_back({row.cost.core_seconds, row.error.rmse});
+      points.push_back({row.cost.core, row.error.rmse});
     }
   }
   return points;
@@ -83,7 +83,7 @@ void send_ranges(Gnuplot& script, const std::vector<ComparisonRow>& rows, const 
   bool any = false;
   for (const ComparisonRow& row : rows) {
     if (row.quantity != quantity || row.method == kExactMethod || !(row.error.rmse > 0)) continue;
-    const double x = row.cost.core_seconds;
+    const double x = row.cost.core;
     const double y = row.error.rmse;
     x_low = any ? std::min(x_low, x) : x;
     x_high = any ? std::max(x_high, x) : x;
@@ -105,12 +105,12 @@ void send_panel(Gnuplot& script, const std::vector<ComparisonRow>& rows, const s
   double last_labelled = 0;
   for (const ComparisonRow* row : pareto_front(rows, quantity)) {
     if (!(row->error.rmse > 0)) continue;
-    front.push_back({row->cost.core_seconds, row->error.rmse});
+    front.push_back({row->cost.core, row->error.rmse});
     // Labels that would lie on top of each other are left out; all rows stand in the table.
     if (last_labelled > 0 && row->error.rmse > last_labelled / 1.6) continue;
     last_labelled = row->error.rmse;
-    labels += "set label " + gnuplot_quoted(row->parameters) + " at " +
-              std::to_string(row->cost.core_seconds) + "," + std::to_string(row->error.rmse) +
+    labels += "set label " + gnuplot_quoted(row->parameters) + " at " + std::to_string(row->cost.core) + "," +
+              std::to_string(row->error.rmse) +
               " right offset -0.8,-0.5 font ',7' tc rgb '#555555' noenhanced front\n";
   }
   send_points(script, "front", front);

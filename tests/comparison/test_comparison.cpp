@@ -52,7 +52,7 @@ ComparisonRow row(const char* method, double core_seconds, double rmse, const ch
   ComparisonRow result;
   result.method = method;
   result.quantity = quantity;
-  result.cost.core_seconds = core_seconds;
+  result.cost.core = core_seconds;
   result.error.rmse = rmse;
   return result;
 }

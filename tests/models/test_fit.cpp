@@ -3,7 +3,7 @@
 
 #include "core/hash.h"
 #include "heightlight/error.h"
-#include "models/form_family.h"
+#include "models/bootstrap.h"
 #include "models/least_squares.h"
 #include "scratch_folder.h"
 

@@ -31,6 +31,14 @@ class Stopwatch {
     return {wall.count(), core, std::max(0.0, machine_seconds() - machine_start_ - core)};
   }
 
+  /// Wall seconds since the last lap, or since it was made.
+  double lap() {
+    const std::chrono::steady_clock::time_point now = std::chrono::steady_clock::now();
+    const std::chrono::duration<double> wall = now - lap_start_;
+    lap_start_ = now;
+    return wall.count();
+  }
+
  private:
   static double process_seconds() {
     std::timespec time{};
@@ -51,6 +59,7 @@ class Stopwatch {
   }
 
   std::chrono::steady_clock::time_point wall_start_ = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::time_point lap_start_ = wall_start_;
   double machine_start_ = machine_seconds();
   double core_start_ = process_seconds();
 };
