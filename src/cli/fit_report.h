@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "models/bootstrap.h"
 #include "models/cross_validation.h"
 #include "models/cubic_by_albedo.h"
 #include "models/floors.h"
-#include "models/bootstrap.h"
 
 namespace heightlight {
 

@@ -65,7 +65,8 @@ TEST_CASE("horizon walks are what extended precision finds, on every hard map", 
     double tolerance = is_seen_whole(surface) ? 1e-6 : 1e-2;
     if (hard.name == "a hole beside every second receiver, open") tolerance = 0.2;
     const bool too_steep = surface.highest - surface.lowest > surface.width() * surface.map.spacing.x;
-    if (too_steep && !is_seen_whole(surface)) continue;  // beyond walks: the check by exact walks is tested on such
+    if (too_steep && !is_seen_whole(surface))
+      continue;  // beyond walks: the check by exact walks is tested on such
     for_some_receivers(surface, [&](int row, int column) {
       const TwinSky twin = twin_sky(surface, row, column, kAzimuths);
       const float sky = walked->sky_view_factor(row, column);
