@@ -1,6 +1,7 @@
 // Rank correlation (Spearman's) of baked ambient occlusion with the AO maps that came with real materials.
 // Their makers tell neither the relief nor the reach nor the gamma: the relief is searched for, without a
-// reach and with some, and only the order of values is compared.
+// reach and with some, and only the order of values is compared. Where the two differ
+// is told by octaves: means over ever larger squares, ours after its values have been given theirs by rank.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -112,8 +113,69 @@ double best_relief(const Search& search, const std::optional<Reach>& reach, doub
   return best;
 }
 
-void judge(const std::filesystem::path& folder, const ShippedMaterial& material, double error,
-           const std::string& pictures) {
+/// `ours` with the values of `theirs`, handed out in the order of its own.
+Map match_values(const Map& ours, const std::vector<float>& theirs) {
+  std::vector<std::size_t> order(theirs.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return ours.values[a] < ours.values[b]; });
+  std::vector<float> values = theirs;
+  std::sort(values.begin(), values.end());
+  Map matched = ours;
+  for (std::size_t i = 0; i < order.size(); ++i) matched.values[order[i]] = values[i];
+  return matched;
+}
+
+/// Means of 2 × 2 texels.
+Map halve(const Map& map) {
+  Map half(map.width / 2, map.height / 2);
+  for (int row = 0; row < half.height; ++row) {
+    for (int column = 0; column < half.width; ++column) {
+      half(row, column) = 0.25F * (map(2 * row, 2 * column) + map(2 * row, 2 * column + 1) +
+                                   map(2 * row + 1, 2 * column) + map(2 * row + 1, 2 * column + 1));
+    }
+  }
+  return half;
+}
+
+/// What a map has that its halved one has not.
+std::vector<double> detail_beyond(const Map& half, const Map& map) {
+  std::vector<double> detail;
+  for (int row = 0; row < 2 * half.height; ++row) {
+    for (int column = 0; column < 2 * half.width; ++column) {
+      detail.push_back(double{map(row, column)} - double{half(row / 2, column / 2)});
+    }
+  }
+  return detail;
+}
+
+double root_mean_square(const std::vector<double>& values) {
+  return std::sqrt(std::inner_product(values.begin(), values.end(), values.begin(), 0.0) /
+                   static_cast<double>(values.size()));
+}
+
+void compare_octaves(const char* name, const Map& ours, Map theirs, std::FILE* table) {
+  Map matched = match_values(ours, theirs.values);
+  for (int texels = 1; texels <= 64; texels *= 2) {
+    const Map half = halve(matched);
+    const Map their_half = halve(theirs);
+    const std::vector<double> a = detail_beyond(half, matched);
+    const std::vector<double> b = detail_beyond(their_half, theirs);
+    std::fprintf(table, "%s,%d,%.4f,%.5f,%.5f\n", name, texels, correlation(a, b), root_mean_square(a),
+                 root_mean_square(b));
+    matched = half;
+    theirs = their_half;
+  }
+}
+
+struct Options {
+  double error = 0.01;
+  std::string pictures;
+  std::string octaves;
+};
+
+void judge(const std::filesystem::path& folder, const ShippedMaterial& material, const Options& options,
+           std::FILE* octaves) {
   const std::filesystem::path heights = folder / material.heights;
   if (!std::filesystem::exists(heights)) {
     std::printf("%-17s is absent\n", material.name);
@@ -129,7 +191,10 @@ void judge(const std::filesystem::path& folder, const ShippedMaterial& material,
     throw Error(path.string() + ": not of its heightmap's size");
   }
   const std::vector<float> shipped = first_channel(image);
-  const Search search{unit, ranks_of(shipped), error};
+  Map theirs(unit.height.width, unit.height.height);
+  const float largest = *std::max_element(shipped.begin(), shipped.end());
+  std::transform(shipped.begin(), shipped.end(), theirs.values.begin(), [=](float v) { return v / largest; });
+  const Search search{unit, ranks_of(shipped), options.error};
   for (const double share : {0.0, 0.1, 0.02}) {
     const std::optional<Reach> reach =
         share > 0 ? std::optional<Reach>{{share, Falloff::linear}} : std::nullopt;
@@ -138,15 +203,14 @@ void judge(const std::filesystem::path& folder, const ShippedMaterial& material,
     std::printf("%-17s %-10s %8.4f %8.3f\n", material.name,
                 share > 0 ? (share == 0.1 ? "10 %" : "2 %") : "unlimited", relief, score);
     std::fflush(stdout);
-    if (pictures.empty()) continue;
-    Map theirs(unit.height.width, unit.height.height);
-    const float largest = *std::max_element(shipped.begin(), shipped.end());
-    std::transform(shipped.begin(), shipped.end(), theirs.values.begin(),
-                   [=](float v) { return v / largest; });
-    const std::filesystem::path stem = std::filesystem::path(pictures) / material.name;
+    if (options.pictures.empty() && !(octaves && share == 0)) continue;
+    const Map ours = search.bake(relief, reach);
+    if (octaves && share == 0) compare_octaves(material.name, ours, theirs, octaves);
+    if (options.pictures.empty()) continue;
+    const std::filesystem::path stem = std::filesystem::path(options.pictures) / material.name;
     write_png(stem.string() + "_shipped.png", grey_picture(theirs));
     write_png(stem.string() + (share > 0 ? share == 0.1 ? "_10.png" : "_2.png" : "_unlimited.png"),
-              grey_picture(search.bake(relief, reach)));
+              grey_picture(ours));
   }
 }
 
@@ -155,18 +219,25 @@ void judge(const std::filesystem::path& folder, const ShippedMaterial& material,
 
 int main(int argument_count, char** arguments) {
   try {
-    double error = 0.01;
-    std::string pictures;
+    heightlight::Options options;
     CLI::App app(
         "Rank correlation with the AO maps that came with materials; the head of the source says more");
-    app.add_option("--error", error, "RMSE of the baked maps (0.01)");
-    app.add_option("--pictures", pictures, "folder for previews of both");
+    app.add_option("--error", options.error, "RMSE of the baked maps (0.01)");
+    app.add_option("--pictures", options.pictures, "folder for previews of both");
+    app.add_option("--octaves", options.octaves,
+                   "table of the correlation by octave, for plots/make-shipped-ao");
     CLI11_PARSE(app, argument_count, arguments);
+    std::FILE* octaves = options.octaves.empty() ? nullptr : std::fopen(options.octaves.c_str(), "w");
+    if (!options.octaves.empty() && !octaves)
+      throw heightlight::Error(options.octaves + ": cannot be written");
+    if (octaves) std::fprintf(octaves, "material,texels,correlation,rms_baked,rms_shipped\n");
     std::printf("%-17s %-10s %8s %8s\n", "material", "reach", "relief", "rank corr.");
     const std::filesystem::path folder = std::filesystem::path(HEIGHTLIGHT_SHARED_DIR) / "data/material";
     for (const heightlight::ShippedMaterial& material : heightlight::kMaterials) {
-      heightlight::judge(folder, material, error, pictures);
+      heightlight::judge(folder, material, options, octaves);
     }
+    if (octaves && std::fclose(octaves) != 0)
+      throw heightlight::Error(options.octaves + ": not written whole");
   } catch (const std::exception& error) {
     std::fprintf(stderr, "heightlight_shipped_ao_bench: %s\n", error.what());
     return 1;
