@@ -9,7 +9,7 @@ set datafile separator comma
 set logscale x 2
 set xrange [0.8:80]
 set xtics (1, 2, 4, 8, 16, 32, 64)
-set xlabel "detail of squares of this many texels, beyond squares twice as wide"
+set xlabel "size of the detail, texels (squares, beyond squares twice as wide)"
 set grid
 materials = "DiamondPlate008C Bricks102 Ground054"
 rows(name) = sprintf("< grep '^%s,' %s", name, table)
@@ -23,7 +23,7 @@ set title "how much of it?"
 set ylabel "RMS of the detail, of white"
 set logscale y
 set yrange [*:*]
-set key top left
+set key bottom right
 plot for [i = 1:3] rows(word(materials, i)) using 2:5 with linespoints lw 2 pt 7 lc i title word(materials, i)." shipped", \
      for [i = 1:3] rows(word(materials, i)) using 2:4 with linespoints lw 2 pt 6 dt 2 lc i title "baked"
 unset multiplot

@@ -77,7 +77,7 @@ void send_points(Gnuplot& script, const std::string& name, const Points& points)
   script << "e\n";
 }
 
-/// Ranges that show all points; some of a decade's room.
+/// Ranges that show all points; on the left there is room for the labels of the front.
 void send_ranges(Gnuplot& script, const std::vector<ComparisonRow>& rows, const std::string& quantity) {
   double x_low = 1e-3, x_high = 1, y_low = 1e-3, y_high = 1e-1;
   bool any = false;
@@ -91,7 +91,7 @@ void send_ranges(Gnuplot& script, const std::vector<ComparisonRow>& rows, const 
     y_high = any ? std::max(y_high, y) : y;
     any = true;
   }
-  script << "set xrange [" << x_low / 30 << ':' << x_high * 1.5 << "]\nset yrange [" << y_low / 1.5 << ':'
+  script << "set xrange [" << x_low / 200 << ':' << x_high * 1.5 << "]\nset yrange [" << y_low / 1.5 << ':'
          << y_high * 1.5 << "]\n";
 }
 
