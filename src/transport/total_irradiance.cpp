@@ -47,14 +47,15 @@ std::vector<Eigen::Index> pick_judges(const Transport& transport) {
 
 /// RMS over the judges of how bounce `next`, just gathered, changes the total that conservation foretold
 /// without it.
-double total_change(const std::vector<Eigen::Index>& judges, const TexelVector& sum, const TexelVector& last,
-                    const TexelVector& gathered, double albedo, int next) {
+double total_change(const std::vector<Eigen::Index>& judges, const Eigen::VectorXf& sum,
+                    const TexelVector& last, const TexelVector& gathered, double albedo, int next) {
   const double power = std::pow(albedo, next);
   double squares = 0;
   for (const Eigen::Index i : judges) {
-    const double before = conserved(sum[i], last[i], albedo, power);
+    const double so_far = double{sum[i]};
+    const double before = conserved(so_far, last[i], albedo, power);
     const double after =
-        power * gathered[i] + conserved(sum[i] + gathered[i], gathered[i], albedo, power * albedo);
+        power * gathered[i] + conserved(so_far + gathered[i], gathered[i], albedo, power * albedo);
     squares += (after - before) * (after - before);
   }
   return judges.empty() ? 0 : std::sqrt(squares / static_cast<double>(judges.size()));
@@ -83,7 +84,7 @@ TotalIrradiance solve_totals(const Transport& transport, const std::vector<doubl
   TotalIrradiance result;
   result.totals.assign(albedos.size(), transport.direct);
   TexelVector last = transport.direct;
-  TexelVector sum = last;
+  Eigen::VectorXf sum = last.cast<float>();       // only tells what is left, which single precision can
   std::vector<std::size_t> open(albedos.size());  // whose totals go on
   std::iota(open.begin(), open.end(), std::size_t{0});
   while (!open.empty()) {
@@ -93,7 +94,7 @@ TotalIrradiance solve_totals(const Transport& transport, const std::vector<doubl
     for (const std::size_t a : open) {
       changes.push_back(total_change(judges, sum, last, gathered, albedos[a], next));
     }
-    for_texels(transport, [&](Eigen::Index i) { sum[i] += gathered[i]; });
+    for_texels(transport, [&](Eigen::Index i) { sum[i] += static_cast<float>(gathered[i]); });
     last.swap(gathered);
     std::vector<std::size_t> going_on;
     for (std::size_t k = 0; k < open.size(); ++k) {
@@ -105,7 +106,7 @@ TotalIrradiance solve_totals(const Transport& transport, const std::vector<doubl
       for_texels(transport, [&](Eigen::Index i) {
         if (is_missing(transport, i)) return;
         total[i] += power * last[i];
-        if (enough) total[i] += conserved(sum[i], last[i], albedo, tail_power);
+        if (enough) total[i] += conserved(double{sum[i]}, last[i], albedo, tail_power);
       });
       if (!enough) going_on.push_back(open[k]);
       if (enough) result.change = std::max(result.change, changes[k]);
