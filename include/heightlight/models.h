@@ -110,7 +110,7 @@ std::optional<Real> notes_total(AmbientOcclusion<Real> occlusion, Real albedo,
   const Real first = albedo * notes_first_bounce(occlusion, constants);
   const Real rest = (1 - albedo) * missing + first;
   if (rest <= 0) return std::nullopt;
-  return direct + first * missing / rest;
+  return direct + missing * (first / rest);  // in this order it is never above 1
 }
 
 /// notes_total with an answer everywhere, as a renderer needs it: 1 where F₀ ≥ 1 (nearly open, and full

@@ -47,7 +47,7 @@ float heightlight_bounce_sum(float direct, float first, float albedo) {
   float missing = 1.0 - direct;
   float brought = albedo * first;
   float rest = (1.0 - albedo) * missing + brought;
-  return missing > 0.0 && rest > 0.0 ? direct + brought * missing / rest : 1.0;
+  return missing > 0.0 && rest > 0.0 ? direct + missing * (brought / rest) : 1.0;
 }
 
 // The study notes' eqs. 7 and 9 to 12. Inputs: alpha, not sky.

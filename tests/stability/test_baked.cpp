@@ -11,7 +11,8 @@
 namespace heightlight {
 namespace {
 
-TEST_CASE("every hard map bakes to shares, unit vectors and totals above the direct light", "[stability]") {
+TEST_CASE("every hard map bakes to shares, unit vectors and totals above the direct light",
+          "[stability][slow]") {
   for (const HardMap& hard : hard_maps()) {
     CAPTURE(hard.name);
     const Surface surface = build_surface(hard.map);
@@ -34,7 +35,7 @@ TEST_CASE("every hard map bakes to shares, unit vectors and totals above the dir
   }
 }
 
-TEST_CASE("on hard maps without steep tiles baked A is that of exact slices", "[stability]") {
+TEST_CASE("on hard maps without steep tiles baked A is that of exact slices", "[stability][slow]") {
   for (const HardMap& hard : hard_maps()) {
     CAPTURE(hard.name);
     const Surface surface = build_surface(hard.map);
