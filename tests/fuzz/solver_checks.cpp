@@ -121,7 +121,7 @@ void compare_sky_walks(const Surface& surface, LargestDifferences& largest,
        {std::tuple{"sky", &lanes.sky, &twin.sky}, std::tuple{"tangent plane's", &lanes.full, &twin.full},
         std::tuple{"solid angle's", &lanes.solid, &twin.solid}}) {
     double worst = 0;
-    for_receivers(surface, [&](int row, int column) {
+    for_receivers(surface, [&, a = a, b = b](int row, int column) {  // Clang 14 captures no bindings
       const std::size_t texel = surface.map.height.index(row, column);
       worst = std::max(worst, std::fabs(double{(*a)[texel]} - double{(*b)[texel]}) / options.azimuths);
     });
