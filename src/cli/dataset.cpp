@@ -36,7 +36,7 @@ void make_folder(const fs::path& folder) {
   if (failure) throw output_error(folder, failure.message());
 }
 
-void refuse_to_replace(const fs::path& manifest, const fs::path& folder) {
+void refuse_to_replace_manifest(const fs::path& manifest, const fs::path& folder) {
   std::error_code ignored;  // of files that do not exist, which nothing replaces
   if (fs::equivalent(manifest, folder / "dataset.json", ignored))
     throw UsageError(manifest.string() + ": the results would replace it; choose another folder with -o");
@@ -115,7 +115,7 @@ std::ptrdiff_t count_stale(const std::vector<DatasetRun>& runs, const fs::path& 
 void make_dataset(DatasetOptions& options) {
   apply_run_options(options.run);
   const Manifest manifest = read_manifest(options.manifest);
-  refuse_to_replace(options.manifest, options.folder);
+  refuse_to_replace_manifest(options.manifest, options.folder);
   make_folder(options.folder);
   const FolderLock lock(options.folder);
   std::vector<DatasetRun> runs = list_runs(manifest, options.folder, options.run);

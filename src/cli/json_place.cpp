@@ -8,8 +8,6 @@
 namespace heightlight {
 namespace {
 
-using Json = nlohmann::json;
-
 constexpr std::size_t kLargestFile = 64 << 20;
 
 std::string read_all(const std::filesystem::path& path) {
@@ -43,10 +41,10 @@ class RepeatedKeys {
  public:
   explicit RepeatedKeys(const std::filesystem::path& path) : path_(path) {}
 
-  void see(Json::parse_event_t event, const Json& value) {
-    if (event == Json::parse_event_t::object_start) open_.emplace_back();
-    if (event == Json::parse_event_t::object_end) open_.pop_back();
-    if (event != Json::parse_event_t::key) return;
+  void see(nlohmann::json::parse_event_t event, const nlohmann::json& value) {
+    if (event == nlohmann::json::parse_event_t::object_start) open_.emplace_back();
+    if (event == nlohmann::json::parse_event_t::object_end) open_.pop_back();
+    if (event != nlohmann::json::parse_event_t::key) return;
     const auto& key = value.get_ref<const std::string&>();
     if (!open_.back().insert(key).second) {
       throw file_error(path_, "the key \"" + fit_to_print(key) + "\" stands twice in one object");
@@ -64,18 +62,20 @@ nlohmann::json read_json(const std::filesystem::path& path) {
   const std::string text = read_all(path);
   RepeatedKeys keys(path);
   try {
-    return Json::parse(text, [&keys](int, Json::parse_event_t event, Json& value) {
-      keys.see(event, value);
-      return true;
-    });
-  } catch (const Json::exception& error) {
+    return nlohmann::json::parse(text,
+                                 [&keys](int, nlohmann::json::parse_event_t event, nlohmann::json& value) {
+                                   keys.see(event, value);
+                                   return true;
+                                 });
+  } catch (const nlohmann::json::exception& error) {
     throw file_error(path, fit_to_print(without_tag(error.what())));
   }
 }
 
-JsonPlace::JsonPlace(const Json& value, const std::filesystem::path& file) : JsonPlace(value, file, "") {}
+JsonPlace::JsonPlace(const nlohmann::json& value, const std::filesystem::path& file)
+    : JsonPlace(value, file, "") {}
 
-JsonPlace::JsonPlace(const Json& value, const std::filesystem::path& file, std::string pointer)
+JsonPlace::JsonPlace(const nlohmann::json& value, const std::filesystem::path& file, std::string pointer)
     : value_(value), file_(file), pointer_(std::move(pointer)) {}
 
 Error JsonPlace::error(const std::string& fault) const {

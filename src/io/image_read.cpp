@@ -13,7 +13,7 @@ namespace heightlight {
 namespace {
 
 /// A sample type that this reader takes: as stored, and as kept.
-struct SampleType {
+struct StoredType {
   OIIO::TypeDesc::BASETYPE stored;
   OIIO::TypeDesc::BASETYPE kept;
   const char* name;
@@ -25,20 +25,20 @@ StoredSamples make_samples(std::size_t count) {
   return std::vector<T>(count);
 }
 
-const std::array kSampleTypes{
-    SampleType{OIIO::TypeDesc::UINT8, OIIO::TypeDesc::UINT8, "uint8", make_samples<std::uint8_t>},
-    SampleType{OIIO::TypeDesc::INT8, OIIO::TypeDesc::INT8, "int8", make_samples<std::int8_t>},
-    SampleType{OIIO::TypeDesc::UINT16, OIIO::TypeDesc::UINT16, "uint16", make_samples<std::uint16_t>},
-    SampleType{OIIO::TypeDesc::INT16, OIIO::TypeDesc::INT16, "int16", make_samples<std::int16_t>},
-    SampleType{OIIO::TypeDesc::UINT32, OIIO::TypeDesc::UINT32, "uint32", make_samples<std::uint32_t>},
-    SampleType{OIIO::TypeDesc::INT32, OIIO::TypeDesc::INT32, "int32", make_samples<std::int32_t>},
-    SampleType{OIIO::TypeDesc::HALF, OIIO::TypeDesc::FLOAT, "half", make_samples<float>},
-    SampleType{OIIO::TypeDesc::FLOAT, OIIO::TypeDesc::FLOAT, "float", make_samples<float>},
-    SampleType{OIIO::TypeDesc::DOUBLE, OIIO::TypeDesc::DOUBLE, "double", make_samples<double>},
+const std::array kStoredTypes{
+    StoredType{OIIO::TypeDesc::UINT8, OIIO::TypeDesc::UINT8, "uint8", make_samples<std::uint8_t>},
+    StoredType{OIIO::TypeDesc::INT8, OIIO::TypeDesc::INT8, "int8", make_samples<std::int8_t>},
+    StoredType{OIIO::TypeDesc::UINT16, OIIO::TypeDesc::UINT16, "uint16", make_samples<std::uint16_t>},
+    StoredType{OIIO::TypeDesc::INT16, OIIO::TypeDesc::INT16, "int16", make_samples<std::int16_t>},
+    StoredType{OIIO::TypeDesc::UINT32, OIIO::TypeDesc::UINT32, "uint32", make_samples<std::uint32_t>},
+    StoredType{OIIO::TypeDesc::INT32, OIIO::TypeDesc::INT32, "int32", make_samples<std::int32_t>},
+    StoredType{OIIO::TypeDesc::HALF, OIIO::TypeDesc::FLOAT, "half", make_samples<float>},
+    StoredType{OIIO::TypeDesc::FLOAT, OIIO::TypeDesc::FLOAT, "float", make_samples<float>},
+    StoredType{OIIO::TypeDesc::DOUBLE, OIIO::TypeDesc::DOUBLE, "double", make_samples<double>},
 };
 
-const SampleType& find_sample_type(const std::filesystem::path& path, const OIIO::ImageSpec& spec) {
-  for (const SampleType& type : kSampleTypes) {
+const StoredType& find_stored_type(const std::filesystem::path& path, const OIIO::ImageSpec& spec) {
+  for (const StoredType& type : kStoredTypes) {
     if (spec.format.basetype == type.stored) return type;
   }
   throw file_error(
@@ -84,7 +84,7 @@ StoredImage read_image(const std::filesystem::path& path, FileFormat format, std
   OIIO::ImageSpec spec;
   const std::unique_ptr<OIIO::ImageInput> input = open_image(path, format, spec);
   if (spec.deep || spec.depth > 1) throw file_error(path, "holds deep or volume data, not an image");
-  const SampleType& type = find_sample_type(path, spec);
+  const StoredType& type = find_stored_type(path, spec);
   const OIIO::TypeDesc kept(type.kept);
   const auto channels = static_cast<std::uint64_t>(spec.nchannels);
   check_map_size(path, static_cast<std::uint64_t>(spec.width), static_cast<std::uint64_t>(spec.height),

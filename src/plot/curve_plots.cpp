@@ -16,7 +16,7 @@ namespace {
 
 // Every axis has a fixed range, so that gnuplot never has to find one among no points. Bounces are coloured
 // by a viridis without its palest end; other lines by Okabe and Ito's colours for the colour-blind.
-constexpr const char* kStyle = R"(
+constexpr const char* kCurveStyle = R"(
 set samples 201
 set palette defined (0 '#440154', 1 '#46327e', 2 '#365c8d', 3 '#277f8e', 4 '#1fa187', 5 '#4ac16d', 6 '#a0da39', 7 '#d5e21a')
 set cbrange [0:K > 0 ? K : 1]
@@ -111,11 +111,6 @@ set key top right title 'relief / width'
 
 using gnuplotio::Gnuplot;
 
-void send_table(Gnuplot& script, const std::string& name, const PlotTable& table) {
-  script << '$' << name << " << e\n";  // the table ends with a line of "e"
-  script.send1d(table);
-}
-
 /// Smallest range that shows the surface, at least a little of it.
 double tallest_bounce(const BounceCurves& curves) {
   double tallest = 0.01;
@@ -177,8 +172,8 @@ GnuplotResult draw_curves(const std::string& terminal, const CurvePlotInput& inp
   return run_gnuplot([&](Gnuplot& script) {
     script << "set terminal " << terminal << '\n';
     send_data(script, input);
-    script << kShareAxisStyle << kStyle << "set multiplot layout 3,2 title " << gnuplot_quoted(input.title)
-           << " font ':Bold,19' noenhanced\n";
+    script << kShareAxisStyle << kCurveStyle << "set multiplot layout 3,2 title "
+           << gnuplot_quoted(input.title) << " font ':Bold,19' noenhanced\n";
     for (const char* panel : {kBouncePanel, kSurfacePanel, kSumPanel, kDirectPanel, kCountPanel})
       script << panel;
     send_relief_panel(script, input);

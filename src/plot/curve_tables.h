@@ -3,13 +3,13 @@
 #include <vector>
 
 #include "heightlight/curves.h"
+#include "plot/gnuplot_run.h"
 
 namespace heightlight {
 
-/// Rows of columns, as gnuplot reads them. A row of NaN stands where bins are empty, which breaks lines
-/// there. A bin without neighbours has two rows, from ao_lo to ao_hi. Without any bin there is one row,
-/// outside the axes: gnuplot complains of tables without a valid point.
-using PlotTable = std::vector<std::vector<double>>;
+// In tables by bin a row of NaN stands where bins are empty, which breaks lines there. A bin without
+// neighbours has two rows, from ao_lo to ao_hi. Without any bin there is one row, outside the axes: gnuplot
+// complains of tables without a valid point.
 
 /// The last bounce K of curves with at least E₀; 0 where no bin is filled.
 int last_bounce(const BounceCurves& curves);

@@ -16,7 +16,7 @@ namespace {
 using gnuplotio::Gnuplot;
 
 // Axes are fixed, so that gnuplot never has to find a range among no points.
-constexpr const char* kStyle = R"(
+constexpr const char* kFitStyle = R"(
 set palette defined (0 '#440154', 1 '#46327e', 2 '#365c8d', 3 '#277f8e', 4 '#1fa187', 5 '#4ac16d', 6 '#a0da39')
 set cbrange [0:1]
 unset colorbox
@@ -24,11 +24,6 @@ set key samplen 2.2 spacing 1.15
 )";
 
 constexpr int kShownAlbedos = 11;
-
-void send_table(Gnuplot& script, const std::string& name, const PlotTable& table) {
-  script << '$' << name << " << e\n";
-  script.send1d(table);
-}
 
 /// Rows and columns for a number of panels, no wider than three.
 std::string layout(std::size_t panels) {
@@ -94,7 +89,7 @@ PlotTable coefficient_table(const std::vector<AlbedoCubic>& cubics) {
 
 GnuplotResult draw_fitted(const std::string& terminal, const std::vector<FittedPanel>& panels) {
   return run_gnuplot([&](Gnuplot& script) {
-    script << "set terminal " << terminal << '\n' << kShareAxisStyle << kStyle << "set yrange [0:1.05]\n";
+    script << "set terminal " << terminal << '\n' << kShareAxisStyle << kFitStyle << "set yrange [0:1.05]\n";
     for (std::size_t i = 0; i < panels.size(); ++i) {
       send_table(script, "measured" + std::to_string(i), panels[i].measured);
       send_table(script, "fitted" + std::to_string(i), panels[i].fitted);
@@ -117,7 +112,7 @@ GnuplotResult draw_fitted(const std::string& terminal, const std::vector<FittedP
 GnuplotResult draw_errors(const std::string& terminal, const std::vector<JudgedForm>& forms) {
   return run_gnuplot([&](Gnuplot& script) {
     script << "set terminal " << terminal << '\n'
-           << kShareAxisStyle << kStyle << "set yrange [0:0.3]\nset cbrange [0:8]\n";
+           << kShareAxisStyle << kFitStyle << "set yrange [0:0.3]\nset cbrange [0:8]\n";
     for (std::size_t i = 0; i < forms.size(); ++i) {
       send_table(script, "errors" + std::to_string(i), error_table(forms[i]));
     }
@@ -134,7 +129,7 @@ GnuplotResult draw_errors(const std::string& terminal, const std::vector<JudgedF
 
 GnuplotResult draw_cubics(const std::string& terminal, const CubicPanel& cubics) {
   return run_gnuplot([&](Gnuplot& script) {
-    script << "set terminal " << terminal << '\n' << kShareAxisStyle << kStyle << std::setprecision(8);
+    script << "set terminal " << terminal << '\n' << kShareAxisStyle << kFitStyle << std::setprecision(8);
     send_table(script, "three", coefficient_table(cubics.three_bounces));
     send_table(script, "all", coefficient_table(cubics.all_bounces));
     script << "set multiplot layout 1,3\nset xlabel 'albedo ρ'\nset yrange [*:*]\nset key top left\n";

@@ -121,6 +121,11 @@ GnuplotResult run_gnuplot(const std::function<void(gnuplotio::Gnuplot&)>& write_
   return result;
 }
 
+void send_table(gnuplotio::Gnuplot& script, const std::string& name, const PlotTable& table) {
+  script << '$' << name << " << e\n";  // the table ends with a line of "e"
+  script.send1d(table);
+}
+
 std::string gnuplot_quoted(const std::string& text) {
   std::string quoted = "'";
   for (const char c : text) {

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace gnuplotio {
 class Gnuplot;
@@ -19,6 +20,12 @@ struct GnuplotResult {
 /// sets no output file gets its picture back in the result; no file's name ever has to be quoted. Throws
 /// Error naming gnuplot when it is not installed or fails.
 GnuplotResult run_gnuplot(const std::function<void(gnuplotio::Gnuplot&)>& write_script);
+
+/// Rows of columns, as gnuplot reads them.
+using PlotTable = std::vector<std::vector<double>>;
+
+/// Makes a table known to the script as `$name`.
+void send_table(gnuplotio::Gnuplot& script, const std::string& name, const PlotTable& table);
 
 /// Commands for the look that plots over an AO share: grid, border, tics, and an x axis from 0 to 1.
 constexpr const char* kShareAxisStyle = R"(

@@ -16,7 +16,7 @@ namespace {
 using gnuplotio::Gnuplot;
 using Points = std::vector<std::array<double, 2>>;
 
-constexpr const char* kStyle = R"(
+constexpr const char* kParetoStyle = R"(
 set encoding utf8
 set logscale xy
 set format x '10^{%T}'
@@ -133,7 +133,7 @@ std::string draw(const std::string& terminal, const std::vector<ComparisonRow>& 
   return run_gnuplot([&](Gnuplot& script) {
            script << "set terminal " << terminal << " size " << 900 * columns << ',' << 620 * lines + 40
                   << " font 'sans,12' background 'white'\n"
-                  << kStyle << "set multiplot layout " << lines << ',' << columns << " title "
+                  << kParetoStyle << "set multiplot layout " << lines << ',' << columns << " title "
                   << gnuplot_quoted(title) << " font ':Bold,16' noenhanced\n";
            for (const std::string& quantity : quantities) send_panel(script, rows, quantity);
            script << "unset multiplot\n";

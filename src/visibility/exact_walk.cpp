@@ -10,7 +10,7 @@
 namespace heightlight {
 namespace {
 
-constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNothingKnown = std::numeric_limits<double>::quiet_NaN();
 
 /// Horizontal unit vector. An azimuth along an axis misses it by the rounding of π; on the outer line of an
 /// open map it would leave the map at once.
@@ -51,7 +51,7 @@ double ExactWalker::walk(int row, int column, const Eigen::Vector2d& azimuth, do
 }
 
 double ExactWalker::horizon_rad(int row, int column, double azimuth_rad) const {
-  if (std::isnan(surface_.map.height(row, column))) return kMissing;
+  if (std::isnan(surface_.map.height(row, column))) return kNothingKnown;
   std::vector<VisibleStretch> unused;
   const double never = std::numeric_limits<double>::infinity();
   return std::atan(walk(row, column, unit_azimuth(azimuth_rad), never, unused));
@@ -61,8 +61,8 @@ void ExactWalker::view(int row, int column, SliceView& view) const {
   view.horizon_rad.clear();
   view.links.clear();
   if (std::isnan(surface_.map.height(row, column))) {
-    view.ambient_occlusion = view.sky_view_factor = kMissing;
-    view.bent_normal.setConstant(kMissing);
+    view.ambient_occlusion = view.sky_view_factor = kNothingKnown;
+    view.bent_normal.setConstant(kNothingKnown);
     return;
   }
   const Eigen::Vector3d normal = surface_.normal(row, column).cast<double>().normalized();

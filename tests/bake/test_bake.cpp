@@ -48,7 +48,7 @@ TEST_CASE("bake writes the files that it names, and nothing else", "[bake]") {
   CHECK(packed.at(5, 7, 2) == read_by_oiio(folder / "m_normal.png").at(5, 7, 1));
 }
 
-TEST_CASE("stb and OpenImageIO read the same levels", "[bake]") {
+TEST_CASE("stb and OpenImageIO read the same levels", "[bake][slow]") {
   const ScratchFolder folder;
   const auto [width, height] =
       GENERATE(std::pair{37, 23}, std::pair{1, 1}, std::pair{1, 19}, std::pair{21, 1}, std::pair{64, 32});
@@ -68,7 +68,7 @@ TEST_CASE("stb and OpenImageIO read the same levels", "[bake]") {
   }
 }
 
-TEST_CASE("levels are the float files' values, rounded", "[bake]") {
+TEST_CASE("levels are the float files' values, rounded", "[bake][slow]") {
   const ScratchFolder folder;
   const Heightmap map = make_synth_map("cobbles", 40, Boundary::tile, 0.2);
   BakeOptions options;

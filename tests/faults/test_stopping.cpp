@@ -18,11 +18,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> kSimulate{"simulate", "map.png", "-o", "out", "--rays", "64", "--quiet"};
+const std::vector<std::string> kLongSimulate{"simulate", "map.png", "-o", "out", "--rays", "64", "--quiet"};
 
 double seconds_of_one_run(const ScratchFolder& folder) {
   const auto start = std::chrono::steady_clock::now();
-  RunningCommand command(kSimulate, folder.path());
+  RunningCommand command(kLongSimulate, folder.path());
   REQUIRE(command.wait().exit_code == 0);
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -42,7 +42,7 @@ TEST_CASE("SIGINT and SIGTERM at random moments end it soon, and leave nothing",
   for (int i = 0; i < 5; ++i) {
     fs::remove_all(folder / "out");
     random = scramble(random);
-    RunningCommand command(kSimulate, folder.path());
+    RunningCommand command(kLongSimulate, folder.path());
     std::this_thread::sleep_for(std::chrono::duration<double>(whole * unit_real(random)));
     const auto sent = std::chrono::steady_clock::now();
     command.send(signal);
@@ -78,7 +78,7 @@ TEST_CASE("killed at random moments, simulate leaves whole results or none, and 
   for (int i = 0; i < 8; ++i) {
     fs::remove_all(folder / "out");
     random = scramble(random);
-    RunningCommand command(kSimulate, folder.path());
+    RunningCommand command(kLongSimulate, folder.path());
     command.interrupt_after(whole * unit_real(random), SIGKILL);
     if (fs::exists(folder / "out")) CHECK((folder_contents(folder / "out") == results));
     for (const auto& entry : fs::directory_iterator(folder.path())) {
@@ -87,7 +87,7 @@ TEST_CASE("killed at random moments, simulate leaves whole results or none, and 
     }
   }
   fs::remove_all(folder / "out");
-  RunningCommand last(kSimulate, folder.path());
+  RunningCommand last(kLongSimulate, folder.path());
   REQUIRE(last.wait().exit_code == 0);
   CHECK((folder_contents(folder / "out") == results));
   CHECK(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()) == 2);  // map.png, out
@@ -139,7 +139,7 @@ TEST_CASE("short of memory, simulate fails with one line and leaves nothing", "[
   int failed = 0;
   for (rlim_t more = 0; more < 480; more += 60) {
     fs::remove_all(folder / "out");
-    RunningCommand command(kSimulate, folder.path(), [&] { limit_addresses(least + more); });
+    RunningCommand command(kLongSimulate, folder.path(), [&] { limit_addresses(least + more); });
     const ProcessEnd end = command.wait();
     INFO(least + more << " MiB, " << end.exit_code << ", signal " << end.signal);
     if (end.exit_code == 0) continue;

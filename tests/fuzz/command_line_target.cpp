@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cli/command_line.h"
+#include "core/parallel.h"
 #include "fuzz_input.h"
 
 namespace {
@@ -37,6 +38,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::string name = (std::filesystem::temp_directory_path() / "heightlight-fuzz-XXXXXX").string();
     heightlight::require(mkdtemp(name.data()) != nullptr, "there is a folder to work in");
     std::signal(SIGXFSZ, SIG_IGN);
+    heightlight::thread_count();  // OpenMP begins now: it wants a file, in memory
     return name;
   }();
   static const std::filesystem::path kHome = std::filesystem::current_path();

@@ -10,7 +10,7 @@ using namespace heightlight;
 
 namespace {
 
-const float kNan = std::numeric_limits<float>::quiet_NaN();
+const float kMissing = std::numeric_limits<float>::quiet_NaN();
 
 Image<float> waves(int columns, int rows, double periods) {
   Image<float> height(columns, rows);
@@ -28,10 +28,10 @@ Image<float> waves(int columns, int rows, double periods) {
 TEST_CASE("Relief and missing samples leave NaN out", "[heightmap]") {
   Heightmap map;
   map.height = Image<float>(3, 1);
-  map.height.values = {kNan, 1, 4};
+  map.height.values = {kMissing, 1, 4};
   CHECK(relief(map) == 3);
   CHECK(count_missing(map) == 1);
-  map.height.values = {kNan, kNan, kNan};
+  map.height.values = {kMissing, kMissing, kMissing};
   CHECK(relief(map) == 0);
   CHECK(count_missing(map) == 3);
 }
@@ -61,7 +61,7 @@ TEST_CASE("A ramp wraps along its contours only", "[heightmap]") {
 
 TEST_CASE("Edge steps leave missing samples out, and say NaN where nothing is left", "[heightmap]") {
   Image<float> height(3, 2);
-  height.values = {0, 1, 2, kNan, 1, 2};
+  height.values = {0, 1, 2, kMissing, 1, 2};
   CHECK(measure_edge_steps(height).across_x == 2);
   const EdgeSteps steps = measure_edge_steps(Image<float>(1, 2));
   CHECK(std::isnan(steps.across_x));

@@ -9,7 +9,7 @@ using Catch::Contains;
 
 namespace {
 
-constexpr std::uint64_t kPlenty = std::uint64_t{1} << 30;
+constexpr std::uint64_t kGigabyte = std::uint64_t{1} << 30;
 
 }  // namespace
 
@@ -25,7 +25,7 @@ TEST_CASE("Real material maps load, and tile", "[heightmap][shared]") {
   const auto path = find_shared_data(name);
   if (!path) return;
   CAPTURE(name);
-  const LoadedHeightmap loaded = load_heightmap(*path, {}, kPlenty);
+  const LoadedHeightmap loaded = load_heightmap(*path, {}, kGigabyte);
   CHECK(loaded.map.height.width == width);
   CHECK(loaded.map.height.height == height);
   CHECK(loaded.facts.bits == bits);
@@ -39,8 +39,8 @@ TEST_CASE("The 8-bit Ground054 is the 16-bit one in fewer levels", "[heightmap][
   const auto coarse = find_shared_data("material/Ground054_height.jpg");
   const auto fine = find_shared_data("material/Ground054_height16.png");
   if (!coarse || !fine) return;
-  CHECK(load_heightmap(*coarse, {}, kPlenty).facts.levels < 256);
-  CHECK(load_heightmap(*fine, {}, kPlenty).facts.levels > 40'000);
+  CHECK(load_heightmap(*coarse, {}, kGigabyte).facts.levels < 256);
+  CHECK(load_heightmap(*fine, {}, kGigabyte).facts.levels > 40'000);
 }
 
 TEST_CASE("Real terrain loads with its heights and its holes", "[heightmap][shared]") {
@@ -51,7 +51,7 @@ TEST_CASE("Real terrain loads with its heights and its holes", "[heightmap][shar
   const auto path = find_shared_data(name);
   if (!path) return;
   CAPTURE(name);
-  const LoadedHeightmap loaded = load_heightmap(*path, {}, kPlenty);
+  const LoadedHeightmap loaded = load_heightmap(*path, {}, kGigabyte);
   CHECK(loaded.facts.sample_type == "float");
   CHECK(loaded.map.base == Approx(lowest).margin(0.01));
   CHECK(loaded.map.base + relief(loaded.map) == Approx(highest).margin(0.01));
@@ -64,7 +64,7 @@ TEST_CASE("Half of hugo_site is missing once its undeclared no-data value is giv
   if (!path) return;
   LoadOptions options;
   options.no_data = -9999;
-  const LoadedHeightmap loaded = load_heightmap(*path, options, kPlenty);
+  const LoadedHeightmap loaded = load_heightmap(*path, options, kGigabyte);
   CHECK_FALSE(loaded.facts.declared_no_data);
   CHECK(count_missing(loaded.map) == 2028);
   CHECK(loaded.map.height.width == 76);
@@ -76,11 +76,11 @@ TEST_CASE("Half of hugo_site is missing once its undeclared no-data value is giv
 TEST_CASE("Boulder's cells in degrees are refused with their size in metres", "[heightmap][shared]") {
   const auto path = find_shared_data("terrain/SRTMGL3_boulder.asc");
   if (!path) return;
-  CHECK_THROWS_WITH(load_heightmap(*path, {}, kPlenty),
+  CHECK_THROWS_WITH(load_heightmap(*path, {}, kGigabyte),
                     Contains("SRTMGL3_boulder.asc") && Contains("--texel 71.01x92.53"));
   LoadOptions options;
   options.texel = Spacing{71.01, 92.53};
-  const LoadedHeightmap loaded = load_heightmap(*path, options, kPlenty);
+  const LoadedHeightmap loaded = load_heightmap(*path, options, kGigabyte);
   CHECK(loaded.map.height.width == 240);
   CHECK(loaded.map.height.height == 144);
   CHECK(relief(loaded.map) == 1343);

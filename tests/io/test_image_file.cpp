@@ -12,7 +12,7 @@ using Catch::Contains;
 
 namespace {
 
-constexpr std::uint64_t kPlenty = 1 << 30;
+constexpr std::uint64_t kMemory = 1 << 30;
 
 template <class T>
 std::vector<T> samples_of(const StoredImage& image) {
@@ -27,7 +27,7 @@ TEST_CASE("An 8-bit picture comes back as it was written", "[io]") {
   for (std::size_t i = 0; i < picture.size(); ++i)
     picture.values[i] = {static_cast<std::uint8_t>(40 * i), 7, 255};
   write_png(scratch / "picture.png", picture);
-  const StoredImage image = read_image(scratch / "picture.png", FileFormat::png, kPlenty);
+  const StoredImage image = read_image(scratch / "picture.png", FileFormat::png, kMemory);
   CHECK(image.width == 3);
   CHECK(image.height == 2);
   CHECK(image.channels == std::vector<std::string>{"R", "G", "B"});
@@ -40,7 +40,7 @@ TEST_CASE("A 16-bit PNG keeps every level", "[io]") {
   Image<std::uint16_t> levels(256, 256);
   for (std::size_t i = 0; i < levels.size(); ++i) levels.values[i] = static_cast<std::uint16_t>(i);
   write_png16(scratch / "levels.png", levels);
-  const StoredImage image = read_image(scratch / "levels.png", FileFormat::png, kPlenty);
+  const StoredImage image = read_image(scratch / "levels.png", FileFormat::png, kMemory);
   CHECK(image.sample_type == "uint16");
   CHECK(image.bits == 16);
   CHECK(image.channels == std::vector<std::string>{"Y"});
@@ -54,7 +54,7 @@ TEST_CASE("A float image keeps every bit, NaN included, in EXR and TIFF", "[io]"
   for (std::size_t i = 0; i < map.size(); ++i) map.values[i] = std::sin(static_cast<float>(i));
   map(2, 3) = std::numeric_limits<float>::quiet_NaN();
   write_float_image(scratch / name, {{"Y", &map}}, {{"Comments", "E/pi"}});
-  const StoredImage image = read_image(scratch / name, recognise_format(scratch / name), kPlenty);
+  const StoredImage image = read_image(scratch / name, recognise_format(scratch / name), kMemory);
   CHECK(image.sample_type == "float");
   std::vector<float> samples = samples_of<float>(image);
   CHECK(std::isnan(samples[map.index(2, 3)]));
@@ -68,7 +68,7 @@ TEST_CASE("Named channels of an EXR come back under their names", "[io]") {
   const Map green(2, 1, 0.5f);
   const Map blue(2, 1, 0.75f);
   write_float_image(scratch / "rgb.exr", {{"R", &red}, {"G", &green}, {"B", &blue}});
-  const StoredImage image = read_image(scratch / "rgb.exr", FileFormat::openexr, kPlenty);
+  const StoredImage image = read_image(scratch / "rgb.exr", FileFormat::openexr, kMemory);
   CHECK(image.channels == std::vector<std::string>{"R", "G", "B"});
   CHECK(samples_of<float>(image) == std::vector<float>{0.25f, 0.5f, 0.75f, 0.25f, 0.5f, 0.75f});
 }

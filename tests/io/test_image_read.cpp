@@ -14,9 +14,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::uint64_t kPlenty = 1 << 30;
+constexpr std::uint64_t kReadMemory = 1 << 30;
 
-StoredImage read(const fs::path& path) { return read_image(path, recognise_format(path), kPlenty); }
+StoredImage read(const fs::path& path) { return read_image(path, recognise_format(path), kReadMemory); }
 
 /// Samples that compress badly, so that a file's end is made of them.
 template <class T>
@@ -169,8 +169,8 @@ TEST_CASE("A header that promises too much is refused before samples are read", 
   CHECK_THROWS_WITH(
       check_map_size(path, 1024, 1024, 8, 5 << 20),
       Contains("map.png") && Contains("8.0 MiB") && Contains("5.0 MiB") && Contains("--memory 8M"));
-  CHECK_THROWS_WITH(check_map_size(path, 0, 7, 8, kPlenty), Contains("map.png") && Contains("0 x 7"));
-  CHECK_THROWS_WITH(check_map_size(path, 1 << 20, 1, 8, kPlenty), Contains("too many"));
+  CHECK_THROWS_WITH(check_map_size(path, 0, 7, 8, kReadMemory), Contains("map.png") && Contains("0 x 7"));
+  CHECK_THROWS_WITH(check_map_size(path, 1 << 20, 1, 8, kReadMemory), Contains("too many"));
   CHECK_THROWS_WITH(check_map_size(path, 65536, 32769, 1, ~std::uint64_t{0}), Contains("too many"));
 }
 

@@ -59,7 +59,7 @@ TEST_CASE("the point tests' lanes and their scalar twin agree on every instructi
   set_turns(DirectionNoise::spatial, 0, pass);
   pass.albedos = {&albedo};
   const BouncePass bounce{pass, sender, 0.01F, 0.02F};
-  const auto no_sums = [&] {
+  const auto no_sums = [width = width] {  // Clang 14 captures no bindings
     const std::vector<float> none(static_cast<std::size_t>(width));
     return PointSums{none, none, {none}};
   };

@@ -157,7 +157,7 @@ bool same_bits(const Map& a, const Map& b) {
   return true;
 }
 
-TEST_CASE("the unit of length changes nothing: for powers of two not a bit", "[stability]") {
+TEST_CASE("the unit of length changes nothing: for powers of two not a bit", "[stability][slow]") {
   const Finder finder = GENERATE(by_rays(64), by_horizon_walks(), by_exact_slices(kAzimuths));
   const int exponent = GENERATE(-20, 3, 20);
   for (const HardMap& hard : hard_maps()) {
@@ -171,7 +171,7 @@ TEST_CASE("the unit of length changes nothing: for powers of two not a bit", "[s
   }
 }
 
-TEST_CASE("spacings of a millionth and of a million are like any other", "[stability]") {
+TEST_CASE("spacings of a millionth and of a million are like any other", "[stability][slow]") {
   const Finder finder = GENERATE(by_horizon_walks(), by_exact_slices(kAzimuths));
   const double unit = GENERATE(1e-6, 1e6);
   for (const HardMap& hard : hard_maps()) {
@@ -187,7 +187,7 @@ TEST_CASE("spacings of a millionth and of a million are like any other", "[stabi
   }
 }
 
-TEST_CASE("a map turned by half a turn gives the result turned", "[stability]") {
+TEST_CASE("a map turned by half a turn gives the result turned", "[stability][slow]") {
   const auto [finder, tolerance] =
       GENERATE(table<Finder, double>({{by_horizon_walks(), 1e-6}, {by_exact_slices(kAzimuths), 1e-6}}));
   for (const HardMap& hard : hard_maps()) {

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "heightlight/synth.h"
 #include "stability/hard_maps.h"
 #include "test_maps.h"
 #include "transport/simulated.h"
@@ -91,6 +92,31 @@ TEST_CASE("totals from conservation are right where bounces die out slowly", "[s
     // much again for every 1/(1 − ρ) of them
     CHECK(rmse < 5 * kTolerance / (1 - albedo));
   }
+}
+
+TEST_CASE("a billion links summed: what all receivers see of ones stays one", "[stability][slow]") {
+  Heightmap map;
+  constexpr int kSize = 256;
+  map.height = synthesize("brick", kSize, 1);
+  for (float& height : map.height.values) height *= 0.2F;
+  map.spacing = {1.0 / kSize, 1.0 / kSize};
+  const Surface surface = build_surface(map);
+  const std::unique_ptr<Transport> transport = build_horizon_transport(surface, {{64, 16}, {32, 16}}, {});
+  const double row_sums = row_sum_error(*transport);
+  CHECK(row_sums < 1e-12);
+  constexpr double kBillion = 1e9;
+  const int bounces = static_cast<int>(std::ceil(kBillion / static_cast<double>(transport->link_count())));
+  CHECK(bounces < 400);
+  // light that is 1 everywhere is what E₀ and one bounce of it give back
+  TexelVector light = TexelVector::Ones(Eigen::Index{kSize} * kSize);
+  for (int bounce = 0; bounce < bounces; ++bounce) light = transport->direct + transport->gather(light);
+  CHECK((light.array() - 1).abs().maxCoeff() <= bounces * row_sums);
+  // and so do all bounces that start from the sky alone
+  const BounceSeries series = heightlight::bounce(
+      *transport, surface, bounces, {}, [](int, const TexelVector&) {}, true);
+  const Equilibrium tail = solve_tail(*transport, series, 1);
+  CHECK((series.sum + tail.irradiance).array().minCoeff() == Approx(1).margin(1e-6));
+  CHECK((series.sum + tail.irradiance).array().maxCoeff() == Approx(1).margin(1e-6));
 }
 
 }  // namespace

@@ -7,11 +7,10 @@
 #include "heightlight/transport.h"
 #include "test_maps.h"
 #include "transport/exact_gather.h"
+#include "transport/root_mean_square.h"
 
 namespace heightlight {
 namespace {
-
-double rms(const TexelVector& x) { return x.norm() / std::sqrt(static_cast<double>(x.size())); }
 
 TexelVector total_at(const Transport& transport, double albedo) {
   const TexelVector reflectance = TexelVector::Constant(transport.direct.size(), albedo);

@@ -4,11 +4,10 @@
 
 #include "heightlight/transport.h"
 #include "test_maps.h"
+#include "transport/root_mean_square.h"
 
 namespace heightlight {
 namespace {
-
-double rms(const TexelVector& x) { return x.norm() / std::sqrt(static_cast<double>(x.size())); }
 
 /// A map on which bounces settle slowly, or soon, with holes or without.
 Surface make_ground(const std::string& name) {

@@ -11,8 +11,6 @@
 namespace heightlight {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 double row_sum(const SliceView& view) {
   return std::accumulate(view.links.begin(), view.links.end(), view.sky_view_factor,
                          [](double sum, const VisibleInterval& link) { return sum + link.weight; });
@@ -89,7 +87,7 @@ TEST_CASE("the exact walk finds an open tilted plane open, also below the horizo
     const double slope = 16 * (0.25 * std::cos(azimuth) - 0.125 * std::sin(azimuth));
     CHECK(inside.horizon_rad[static_cast<std::size_t>(k)] == Approx(std::atan(slope)).margin(1e-12));
   }
-  CHECK(walker.horizon_rad(0, 15, kPi / 4) == -kPi / 2);
+  CHECK(walker.horizon_rad(0, 15, std::numbers::pi / 4) == -std::numbers::pi / 2);
 }
 
 /// A trench along the rows' direction, floor at columns 24 … 40 of 64 and `depth` (texels) below the rest.
@@ -200,11 +198,11 @@ TEST_CASE("azimuths along the outer lines of an open map stay on the map", "[vis
   const Surface surface = build_surface(std::move(map));
   const ExactWalker walker(surface, 4);
   // Downwards along the right-hand column, to the right along the last row: up to their far ends.
-  CHECK(walker.horizon_rad(0, 8, -kPi / 2) == Approx(std::atan(6.0)).margin(1e-15));
-  CHECK(walker.horizon_rad(0, 0, -kPi / 2) == Approx(std::atan(6.0)).margin(1e-15));
+  CHECK(walker.horizon_rad(0, 8, -std::numbers::pi / 2) == Approx(std::atan(6.0)).margin(1e-15));
+  CHECK(walker.horizon_rad(0, 0, -std::numbers::pi / 2) == Approx(std::atan(6.0)).margin(1e-15));
   CHECK(walker.horizon_rad(6, 0, 0) == Approx(std::atan(8.0)).margin(1e-15));
-  CHECK(walker.horizon_rad(6, 8, kPi) == Approx(std::atan(-8.0)).margin(1e-15));
-  CHECK(walker.horizon_rad(6, 8, 0) == -kPi / 2);
+  CHECK(walker.horizon_rad(6, 8, std::numbers::pi) == Approx(std::atan(-8.0)).margin(1e-15));
+  CHECK(walker.horizon_rad(6, 8, 0) == -std::numbers::pi / 2);
 }
 
 }  // namespace

@@ -120,6 +120,7 @@ TEST_CASE("the link walk's lanes and its scalar twin tell the same light on ever
   const int fineness = GENERATE(8, 32);
   const Surface surface = build_surface(map);
   const WalkOptions options{8, fineness, 0.3F};
+  INFO(name << ", fineness " << fineness);
   const Azimuths azimuths = make_link_azimuths(surface, options);
   LightMips light(surface);
   light.fill(make_field(surface));
@@ -129,7 +130,7 @@ TEST_CASE("the link walk's lanes and its scalar twin tell the same light on ever
     const std::vector<float> twin_means = means_of(replay_links_scalar, tile, azimuths, twin, light);
     for (const std::int64_t target : instruction_sets()) {
       const InstructionSet use(target);
-      INFO(name << ", fineness " << fineness << ", " << hwy::TargetName(target));
+      INFO(hwy::TargetName(target));
       const Stream lanes = stream_of(walk_links, tile, azimuths);
       const std::vector<int> steps = count_steps(tile, azimuths, lanes);
       const std::vector<float> means = means_of(replay_links_scalar, tile, azimuths, lanes, light);
@@ -160,6 +161,7 @@ TEST_CASE("steps of links sum to what the sky's walk leaves of the hemisphere, t
   // azimuths that Σ S(m₀) = K to exp(−K asinh(1/kSteep)) = 10⁻⁵ where the sky's walk takes it to be K.
   const WalkOptions options{24, 32, 0.3F};
   const Surface surface = build_surface(map);
+  INFO(name);
   const Azimuths azimuths = make_link_azimuths(surface, options);
   for_tiles(surface, options, [&](const WalkTile& tile) {
     const std::vector<int> steps = count_steps(tile, azimuths, stream_of(walk_links, tile, azimuths));
@@ -174,7 +176,7 @@ TEST_CASE("steps of links sum to what the sky's walk leaves of the hemisphere, t
       const double expected = double{kQuantum} * double{sums.full[at] - sums.sky[at]};
       worst = std::max(worst, std::fabs(expected - steps[at]));
     });
-    INFO(name << ": " << worst << " steps apart");
+    INFO(worst << " steps apart");
     // A step per azimuth: a last rise of less than kLeastRise goes unseen, kQuantum kLeastRise |S'| steps
     // with |S'| ≤ 0.65 over level ground; and links see what the shared far view misses (measured: 0.45 per
     // azimuth).

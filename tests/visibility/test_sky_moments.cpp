@@ -85,7 +85,7 @@ TEST_CASE("moments: the sky walk's lanes and its scalar twin agree on every inst
 }
 
 TEST_CASE("reach: the sky walk's lanes and its scalar twin agree on every instruction set",
-          "[visibility][walk][reach]") {
+          "[visibility][walk][reach][slow]") {
   const std::string kind = GENERATE("smooth", "rough", "tall", "holes", "oblong", "texel");
   const Boundary boundary = GENERATE(Boundary::tile, Boundary::open);
   const double distance = GENERATE(0.005, 0.06, 0.4, 2.0);

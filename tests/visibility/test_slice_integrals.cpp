@@ -11,8 +11,6 @@
 namespace heightlight {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 /// Gauss–Legendre with five nodes on each of 64 pieces: exact to rounding for the products of sines below.
 double integrate(double from, double to, const std::function<double(double)>& f) {
   constexpr double kNode[] = {-0.9061798459386640, -0.5384693101056831, 0, 0.5384693101056831,
@@ -31,8 +29,8 @@ double integrate(double from, double to, const std::function<double(double)>& f)
 
 /// A normal in some slice, a random one per index: tilted by up to a right angle, towards any side.
 SliceNormal random_normal(std::uint64_t index) {
-  const double tilt = kPi / 2 * unit_real(scramble(index));
-  const double side = 2 * kPi * unit_real(scramble(index + 1000));
+  const double tilt = std::numbers::pi / 2 * unit_real(scramble(index));
+  const double side = 2 * std::numbers::pi * unit_real(scramble(index + 1000));
   return {std::sin(tilt) * std::cos(side), std::cos(tilt)};
 }
 
@@ -43,8 +41,8 @@ struct Interval {
 /// Two random elevations above the tangent plane.
 Interval random_interval(const SliceNormal& normal, std::uint64_t index) {
   const double tangent = std::atan(tangent_slope(normal));
-  const double a = tangent + (kPi / 2 - tangent) * unit_real(scramble(index + 2000));
-  const double b = tangent + (kPi / 2 - tangent) * unit_real(scramble(index + 3000));
+  const double a = tangent + (std::numbers::pi / 2 - tangent) * unit_real(scramble(index + 2000));
+  const double b = tangent + (std::numbers::pi / 2 - tangent) * unit_real(scramble(index + 3000));
   return {std::min(a, b), std::max(a, b)};
 }
 
@@ -62,16 +60,17 @@ TEST_CASE("the slices' closed forms are the integrals that they stand for", "[vi
         integrate(a, b, [&](double theta) { return cosine_to_normal(normal, theta) * std::cos(theta); });
     // identity: some 10 roundings of values up to 2, and the tangents' own
     CHECK(cosine_mass(normal, from, to) == Approx(mass).margin(1e-14).epsilon(1e-12));
-    CHECK(solid_angle_above(from) ==
-          Approx(integrate(a, kPi / 2, [](double theta) { return std::cos(theta); })).epsilon(1e-12));
+    CHECK(solid_angle_above(from) == Approx(integrate(a, std::numbers::pi / 2, [](double theta) {
+                                       return std::cos(theta);
+                                     })).epsilon(1e-12));
     const Eigen::Vector2d bent = bent_mass_above(normal, from);
     const auto towards_normal = [&](double theta) {
       return cosine_to_normal(normal, theta) * std::cos(theta);
     };
-    const double along =
-        integrate(a, kPi / 2, [&](double theta) { return towards_normal(theta) * std::cos(theta); });
-    const double up =
-        integrate(a, kPi / 2, [&](double theta) { return towards_normal(theta) * std::sin(theta); });
+    const double along = integrate(a, std::numbers::pi / 2,
+                                   [&](double theta) { return towards_normal(theta) * std::cos(theta); });
+    const double up = integrate(a, std::numbers::pi / 2,
+                                [&](double theta) { return towards_normal(theta) * std::sin(theta); });
     CHECK(bent.x() == Approx(along).margin(1e-14).epsilon(1e-12));
     CHECK(bent.y() == Approx(up).margin(1e-14).epsilon(1e-12));
   }
@@ -87,8 +86,8 @@ TEST_CASE("a stretch's light comes from where its weighted mean lies", "[visibil
     const double to_way = 1 + 2 * unit_real(scramble(i + 4000));
     // The stretch from (1, tan a) to (s, s tan b): at elevation θ its share is where it has that slope.
     const double rise = to_way * std::tan(b) - std::tan(a);
-    const auto share_at = [&](double theta) {
-      return (std::tan(theta) - std::tan(a)) / (rise - (to_way - from_way) * std::tan(theta));
+    const auto share_at = [&, from = a](double theta) {
+      return (std::tan(theta) - std::tan(from)) / (rise - (to_way - from_way) * std::tan(theta));
     };
     const auto weight_at = [&](double theta) { return cosine_to_normal(normal, theta) * std::cos(theta); };
     const double expected =
@@ -143,19 +142,19 @@ TEST_CASE("slices of the whole hemisphere sum to pi and 2 pi, and their bent nor
   double angle = 0;
   Eigen::Vector3d bent = Eigen::Vector3d::Zero();
   for (int k = 0; k < kAzimuths; ++k) {
-    const double azimuth = 2 * kPi * (k + 0.25) / kAzimuths;
+    const double azimuth = 2 * std::numbers::pi * (k + 0.25) / kAzimuths;
     const Eigen::Vector2d d(std::cos(azimuth), std::sin(azimuth));
     const SliceNormal in_slice{normal.head<2>().dot(d), normal.z()};
     const Elevation tangent = elevation_of_slope(tangent_slope(in_slice));
-    mass += cosine_mass(in_slice, tangent, {}) * 2 * kPi / kAzimuths;
-    angle += solid_angle_above(tangent) * 2 * kPi / kAzimuths;
+    mass += cosine_mass(in_slice, tangent, {}) * 2 * std::numbers::pi / kAzimuths;
+    angle += solid_angle_above(tangent) * 2 * std::numbers::pi / kAzimuths;
     const Eigen::Vector2d slice_bent = bent_mass_above(in_slice, tangent);
     bent.head<2>() += slice_bent.x() * d;
     bent.z() += slice_bent.y();
   }
   // The integrands are smooth and periodic in the azimuth, so that few slices do: what is left is rounding.
-  CHECK(mass == Approx(kPi).epsilon(1e-13));
-  CHECK(angle == Approx(2 * kPi).epsilon(1e-13));
+  CHECK(mass == Approx(std::numbers::pi).epsilon(1e-13));
+  CHECK(angle == Approx(2 * std::numbers::pi).epsilon(1e-13));
   CHECK((bent.normalized() - normal).norm() < 1e-13);
 }
 
@@ -183,7 +182,7 @@ TEST_CASE("the nadir and the zenith are elevations too", "[visibility]") {
   CHECK(solid_angle_above(nadir) == 2);
   CHECK(solid_angle_above(zenith) == 0);
   // A level normal: half a turn of cos²θ.
-  CHECK(cosine_mass({1, 0}, nadir, zenith) == Approx(kPi / 2).epsilon(1e-15));
+  CHECK(cosine_mass({1, 0}, nadir, zenith) == Approx(std::numbers::pi / 2).epsilon(1e-15));
   CHECK(tangent_slope({1, 0}) == -infinity);
   CHECK(tangent_slope({-1, 0}) == infinity);
   CHECK(tangent_slope({0, 0}) == 0);
