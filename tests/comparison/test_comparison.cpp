@@ -154,7 +154,7 @@ TEST_CASE("every method is compared, and the exact ones come out exact", "[compa
   }
 }
 
-TEST_CASE("closed forms on the reference's own A are what the models say", "[comparison]") {
+TEST_CASE("closed forms on the reference's own A are what the models say", "[comparison][slow]") {
   const SmallScene scene("sines");
   Estimate exact;
   exact.sky_view_factor = scene.reference.sky_view_factor;

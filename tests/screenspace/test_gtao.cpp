@@ -198,7 +198,7 @@ TEST_CASE("GTAO tells the same for any number of threads, and for a map moved ar
   CHECK(same(run(shift_map(map, 8, 12)), shift_map(moved_one, 8, 12).height));  // the noise's period is 4
 }
 
-TEST_CASE("with slices and steps GTAO converges to the exact walk", "[screenspace]") {
+TEST_CASE("with slices and steps GTAO converges to the exact walk", "[screenspace][slow]") {
   const auto [shape, boundary] =
       GENERATE(std::pair{"brick", Boundary::tile}, std::pair{"fbm", Boundary::open});
   const Surface surface = build_surface(make_synth_map(shape, 64, boundary, 0.1));

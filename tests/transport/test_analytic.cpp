@@ -134,7 +134,7 @@ std::vector<std::vector<double>> groove_bounces(double slope_rad, int n, int bou
   return result;
 }
 
-TEST_CASE("bounces in a V-groove match its 2-D integral equation", "[transport][analytic]") {
+TEST_CASE("bounces in a V-groove match its 2-D integral equation", "[transport][analytic][slow]") {
   constexpr int kHalf = 32;  // texels from the bottom to the rim
   // Rays average over rows, slices are the same in all of them.
   const auto [finder, rows] =
@@ -197,7 +197,7 @@ BowlError bowl_error(int size, const Finder& finder) {
 }
 
 TEST_CASE("in a spherical pit every bounce is uniform, and the error falls with the texel",
-          "[transport][analytic]") {
+          "[transport][analytic][slow]") {
   const Finder finder = GENERATE(by_rays(1024), by_horizon_walks(), by_exact_slices(16));
   CAPTURE(finder.name);
   const BowlError coarse = bowl_error(32, finder);

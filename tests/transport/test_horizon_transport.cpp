@@ -184,7 +184,7 @@ TEST_CASE("any other shift changes A and gathers by no more than sampling errs: 
 }
 
 TEST_CASE("gathers of a smooth field come near exact ones, ever nearer with azimuths and fineness",
-          "[transport][horizon]") {
+          "[transport][horizon][slow]") {
   constexpr int kSize = 128;
   constexpr int kTried = 512;
   const std::string shape = GENERATE("brick", "fbm", "sines");

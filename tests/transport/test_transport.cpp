@@ -46,7 +46,7 @@ TEST_CASE("the white furnace: under albedo 1 and a sky of 1 the irradiance is 1 
   CHECK((after - ones).cwiseAbs().maxCoeff() < kRowTolerance);
 }
 
-TEST_CASE("a tail at constant albedo is what further bounces bring", "[transport]") {
+TEST_CASE("a tail at constant albedo is what further bounces bring", "[transport][slow]") {
   const double albedo = GENERATE(0.3, 0.8, 1.0);
   const Finder finder = GENERATE(by_rays(128), by_horizon_walks(), by_exact_slices(16));
   CAPTURE(finder.name);
@@ -138,7 +138,7 @@ TEST_CASE("shifting a tiled map by whole periods of the rays' turns shifts the r
 }
 
 TEST_CASE("shifting by any other amount changes nothing but the rays' noise: there is no seam",
-          "[transport]") {
+          "[transport][slow]") {
   const Heightmap map = make_synth_map("sines", 48, Boundary::tile, 0.3);
   const Simulated here = simulate_map(map, 4096, 1);
   const Simulated there = simulate_map(shift_map(map, 19, 31), 4096, 1);
@@ -155,7 +155,7 @@ TEST_CASE("shifting by any other amount changes nothing but the rays' noise: the
   CHECK(worst_line < 8e-4);  // Monte Carlo: 0.001·√2/√48 (RMSE measured at 4096 rays), four times
 }
 
-TEST_CASE("turning a map by 90 degrees turns the result, up to the cells' diagonal", "[transport]") {
+TEST_CASE("turning a map by 90 degrees turns the result, up to the cells' diagonal", "[transport][slow]") {
   const Heightmap map = make_map(64, 64, Boundary::tile, [](int row, int column) {
     const double turn = 2 * std::numbers::pi / 64;
     return 0.05 * std::sin(turn * (2 * column + row)) + 0.04 * std::sin(turn * (4 * row - 3 * column) + 1.3);

@@ -213,7 +213,7 @@ TEST_CASE("moments converge to those of exact profiles with the walk's fineness"
   CHECK(before.second < 1e-3);
 }
 
-TEST_CASE("a limited reach converges to that of exact profiles", "[visibility][reach]") {
+TEST_CASE("a limited reach converges to that of exact profiles", "[visibility][reach][slow]") {
   const std::string shape = GENERATE("brick", "fbm");
   const Boundary boundary = GENERATE(Boundary::tile, Boundary::open);
   const Falloff falloff = GENERATE(Falloff::none, Falloff::linear, Falloff::root);
