@@ -86,9 +86,10 @@ void JsonPlace::check_keys(const std::set<std::string>& known) const {
   if (!value_.is_object()) throw error("must be an object, { … }");
   for (const auto& [key, ignored] : value_.items()) {
     if (known.contains(key)) continue;
-    std::string list;
-    for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
-    throw error("there is no \"" + key + "\" here; known are " + list);
+    std::string fault = "there is no \"";
+    fault.append(key).append("\" here; known are ");
+    for (const std::string& name : known) fault.append(name == *known.begin() ? "" : ", ").append(name);
+    throw error(fault);
   }
 }
 
