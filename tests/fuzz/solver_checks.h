@@ -17,7 +17,8 @@ struct LargestDifferences {
 /// Finds the same answers in every way that there is, and returns what disagrees by more than may be, one
 /// line each:
 ///  * rays in lanes and one by one end in the same places, bit for bit;
-///  * exact slices and rays, which share nothing but the mesh: A and α of every fourth receiver, picked by a hash;
+///  * exact slices and rays, which share nothing but the mesh: A and α of every fourth receiver, picked by a
+///  hash;
 ///  * sky walks in lanes and one by one: their sums, but for rounding;
 ///  * links kept and walked again: gathers, bit for bit;
 ///  * one thread and three: every operator and its gathers, bit for bit;
