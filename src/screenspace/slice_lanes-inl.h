@@ -12,9 +12,8 @@
 #include <hwy/highway.h>
 
 #include <array>
-#include <numbers>
 
-#include "core/arc_tangent-inl.h"
+#include "core/elevation-inl.h"
 #include "screenspace/slice_samples.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -84,10 +83,9 @@ HWY_INLINE Lanes sample_slopes(const DepthBuffer& depth, const Receivers& at, co
 
 /// Twice a side's share of irradiance above the slope m (gtao_kernel.h).
 HWY_INLINE VF slice_irradiance(VF c, VF n_z, VF m) {
-  const VF one = hn::Set(kF, 1.0F);
-  const VF half_pi = hn::Set(kF, std::numbers::pi_v<float> / 2);
-  const VF q = hn::Div(one, hn::MulAdd(m, m, one));
-  const VF zenith = hn::NegMulAdd(m, q, hn::Sub(half_pi, arc_tangent(kF, m)));
+  const Elevation<VF> horizon = elevation(kF, m);
+  const VF q = hn::Mul(horizon.cosine, horizon.cosine);
+  const VF zenith = hn::NegMulAdd(horizon.sine, horizon.cosine, horizon.from_zenith);
   return hn::MulAdd(c, zenith, hn::Mul(n_z, q));
 }
 

@@ -40,10 +40,9 @@ class LinkLanes {
     slope_ = hn::MulAdd(hn::Load(kF, tile.slope_x.data() + at), hn::Set(kF, azimuth.walk.world_x),
                         hn::Mul(hn::Load(kF, tile.slope_y.data() + at), hn::Set(kF, azimuth.walk.world_y)));
     c_ = hn::Neg(hn::Mul(n_z_, slope_));
-    const VF one = hn::Set(kF, 1.0F);
-    const VF q = hn::Div(one, hn::MulAdd(slope_, slope_, one));
-    cosine_ = hn::Sqrt(q);
-    seen_ = mass(slope_, q);
+    const Elevation<VF> horizon = elevation(kF, slope_);
+    cosine_ = horizon.cosine;
+    seen_ = mass(horizon);
     slope_before_ = hn::Zero(kF);
   }
 
@@ -87,8 +86,11 @@ class LinkLanes {
   }
 
  private:
-  VF mass(VF m, VF q) const {
-    return hn::NegMulAdd(n_z_, q, hn::Mul(c_, hn::MulAdd(m, q, arc_tangent(kF, m))));
+  /// Of what lies below a horizon, but for a constant.
+  VF mass(const Elevation<VF>& horizon) const {
+    const VF q = hn::Mul(horizon.cosine, horizon.cosine);
+    const VF below = hn::MulSub(horizon.sine, horizon.cosine, horizon.from_zenith);
+    return hn::NegMulAdd(n_z_, q, hn::Mul(c_, below));
   }
 
   void look(VF s, float way, const NodeShare& share) {
@@ -129,9 +131,9 @@ class LinkLanes {
 
   void give(VF s, hn::Mask<F> rises, float way, const NodeShare& share) {
     const VF one = hn::Set(kF, 1.0F);
-    const VF q = hn::Div(one, hn::MulAdd(s, s, one));
-    const VF mass_above = mass(s, q);
-    const VF to_cosine = hn::Sqrt(q);
+    const Elevation<VF> horizon = elevation(kF, s);
+    const VF mass_above = mass(horizon);
+    const VF to_cosine = horizon.cosine;
     const VF weight = hn::IfThenElseZero(rises, hn::Sub(mass_above, seen_));
     float* node = weights_ + std::ptrdiff_t{share.node} * kBlock;
     touched_[share.node] = 1;

@@ -23,16 +23,17 @@ struct SliceSums {
 };
 
 HWY_INLINE SliceSums integrate_sums(VF c, VF n_z, VF m, const SkyWanted& wanted) {
-  const Slice slice = integrate_slice(c, n_z, m);
+  const Elevation<VF> horizon = elevation(kF, m);
+  const Slice slice = integrate_slice(c, n_z, horizon);
   const VF zero = hn::Zero(kF);
   SliceSums sums{slice.sky, slice.solid, zero, zero, zero, zero};
   if (wanted.first) {
-    const FirstMoments first = integrate_first(c, n_z, m);
+    const FirstMoments first = integrate_first(c, n_z, horizon);
     sums.along = first.along;
     sums.up = first.up;
   }
   if (wanted.second) {
-    const SecondMoments second = integrate_second(c, n_z, m);
+    const SecondMoments second = integrate_second(c, n_z, horizon);
     sums.along_squared = second.along;
     sums.mixed = second.mixed;
   }
@@ -62,7 +63,7 @@ HWY_INLINE void add_to(float* sum, float factor, VF value) {
 /// Adds the slices of vector v to its receivers' sums.
 HWY_INLINE void add_slices(const WalkTile& tile, const AzimuthTable& azimuth, const Bunch& bunch,
                            std::size_t v, const SliceSums& slices, SkySums& sums) {
-  const std::size_t at = bunch.first + v * hn::Lanes(kF);
+  const std::size_t at = bunch.at(v);
   const VF n_z = hn::Load(kF, tile.normal_z.data() + at);
   add_to(sums.sky.data() + at, 1, slices.sky);
   add_to(sums.solid.data() + at, 1, slices.solid);
@@ -70,7 +71,7 @@ HWY_INLINE void add_slices(const WalkTile& tile, const AzimuthTable& azimuth, co
   VF full = hn::Set(kF, 1.0F);
   if (HWY_UNLIKELY(!hn::AllFalse(kF, is_steep))) {
     const VF c = hn::Neg(hn::Mul(n_z, bunch.tangent[v]));
-    full = hn::IfThenElse(is_steep, integrate_slice(c, n_z, bunch.tangent[v]).sky, full);
+    full = hn::IfThenElse(is_steep, integrate_slice(c, n_z, elevation(kF, bunch.tangent[v])).sky, full);
   }
   add_to(sums.full.data() + at, 1, full);
   const float x = azimuth.world_x;
@@ -93,8 +94,8 @@ HWY_INLINE void add_slices(const WalkTile& tile, const AzimuthTable& azimuth, co
 template <class Work>
 HWY_INLINE void for_bunches(const WalkTile& tile, const AzimuthTable& azimuth, Work&& work) {
   const LaneWalk walk(tile, azimuth);
-  for (int row = 0; row < tile.rows; ++row) {
-    for (int column = 0; column < tile.columns; column += static_cast<int>(kBunch * hn::Lanes(kF))) {
+  for (int row = 0; row < tile.rows; row += static_cast<int>(kBunch)) {
+    for (int column = 0; column < tile.columns; column += static_cast<int>(hn::Lanes(kF))) {
       Bunch bunch = walk.begin(row, column);
       work(walk, bunch);
     }
@@ -107,7 +108,7 @@ HWY_INLINE void add_above(const WalkTile& tile, const AzimuthTable& azimuth, Sky
   for_bunches(tile, azimuth, [&](const LaneWalk& walk, Bunch& bunch) HWY_ATTR {
     look(walk, bunch);
     for (std::size_t v = 0; v < kBunch; ++v) {
-      const std::size_t at = bunch.first + v * hn::Lanes(kF);
+      const std::size_t at = bunch.at(v);
       const VF n_z = hn::Load(kF, tile.normal_z.data() + at);
       const VF c = hn::Neg(hn::Mul(n_z, bunch.tangent[v]));
       if (sums.keep_slope) hn::Store(bunch.slope[v], kF, sums.slope.data() + at);
@@ -208,7 +209,7 @@ HWY_INLINE void walk_chain(const WalkTile& tile, const AzimuthTable& azimuth, co
     std::array<VF, kBunch> n_z, c;
     std::array<SliceSums, kBunch> open, above;
     for (std::size_t v = 0; v < kBunch; ++v) {
-      n_z[v] = hn::Load(kF, tile.normal_z.data() + bunch.first + v * hn::Lanes(kF));
+      n_z[v] = hn::Load(kF, tile.normal_z.data() + bunch.at(v));
       c[v] = hn::Neg(hn::Mul(n_z[v], bunch.tangent[v]));
       open[v] = {zero, zero, zero, zero, zero, zero};
       above[v] = integrate_sums(c[v], n_z[v], bunch.slope[v], sums.wanted);

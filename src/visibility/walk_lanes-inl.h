@@ -10,9 +10,8 @@
 #include <hwy/highway.h>
 
 #include <array>
-#include <numbers>
 
-#include "core/arc_tangent-inl.h"
+#include "core/elevation-inl.h"
 #include "visibility/far_view.h"
 #include "visibility/sky_walk.h"
 
@@ -20,39 +19,46 @@ HWY_BEFORE_NAMESPACE();
 namespace heightlight::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// At most two groups of receivers in a vector.
-using F = hn::CappedTag<float, 2 * WalkTile::kGroup>;
+// At most four groups of receivers in a vector.
+using F = hn::CappedTag<float, 4 * WalkTile::kGroup>;
 using I = hn::RebindToSigned<F>;
 using VF = hn::Vec<F>;
 using VI = hn::Vec<I>;
 constexpr F kF;
 constexpr I kI;
 
-/// Vectors walked together, so that a sample's weights are fetched once for all of them.
-constexpr std::size_t kBunch = 4;
+/// Rows walked together, those of a group: what is fetched for one of them serves all.
+constexpr std::size_t kBunch = WalkTile::kGroup;
 
-/// Neighbouring receivers on their way.
+/// Neighbouring receivers on their way, a vector in each row.
 struct Bunch {
-  int row = 0;  ///< in the tile
+  int row = 0;  ///< in the tile, of the first
   int column = 0;
-  std::size_t first = 0;  ///< index in the tile's arrays
+
+  /// Index of vector v in the tile's arrays.
+  std::size_t at(std::size_t v) const {
+    return (static_cast<std::size_t>(row) + v) * WalkTile::kSide + static_cast<std::size_t>(column);
+  }
   std::array<VF, kBunch> height, tangent, slope;
 };
 
-/// Twice a slice's irradiance and its solid angle above the slope m; sky_walk.h has the derivation.
+/// Twice a slice's irradiance and its solid angle above a horizon; sky_walk.h has the derivation, and q and
+/// ζ.
 struct Slice {
   VF sky, solid;
 };
 
-HWY_INLINE Slice integrate_slice(VF c, VF n_z, VF m) {
-  const VF one = hn::Set(kF, 1.0F);
-  const VF half_pi = hn::Set(kF, std::numbers::pi_v<float> / 2);
-  const VF q = hn::Div(one, hn::MulAdd(m, m, one));
-  const VF zenith = hn::NegMulAdd(m, q, hn::Sub(half_pi, arc_tangent(kF, m)));
-  return {hn::MulAdd(c, zenith, hn::Mul(n_z, q)), hn::NegMulAdd(m, hn::Sqrt(q), one)};
+/// ζ = π/2 − h − sin h cos h.
+HWY_INLINE VF zenith_part(const Elevation<VF>& horizon) {
+  return hn::NegMulAdd(horizon.sine, horizon.cosine, horizon.from_zenith);
 }
 
-/// Twice a slice's moments above the slope m: of ω along d and z, and of its squares along d d and d z.
+HWY_INLINE Slice integrate_slice(VF c, VF n_z, const Elevation<VF>& horizon) {
+  const VF q = hn::Mul(horizon.cosine, horizon.cosine);
+  return {hn::MulAdd(c, zenith_part(horizon), hn::Mul(n_z, q)), hn::Sub(hn::Set(kF, 1.0F), horizon.sine)};
+}
+
+/// Twice a slice's moments above a horizon: of ω along d and z, and of its squares along d d and d z.
 struct FirstMoments {
   VF along, up;
 };
@@ -60,28 +66,24 @@ struct SecondMoments {
   VF along, mixed;
 };
 
-HWY_INLINE FirstMoments integrate_first(VF c, VF n_z, VF m) {
+HWY_INLINE FirstMoments integrate_first(VF c, VF n_z, const Elevation<VF>& horizon) {
   const VF one = hn::Set(kF, 1.0F);
   const VF two_thirds = hn::Set(kF, 2.0F / 3);
-  const VF q = hn::Div(one, hn::MulAdd(m, m, one));
-  const VF root = hn::Sqrt(q);
-  const VF s = hn::Mul(m, root);
+  const VF s = horizon.sine;
   const VF e = hn::Sub(one, s);
-  const VF mixed = hn::Mul(q, root);
+  const VF mixed = hn::Mul(hn::Mul(horizon.cosine, horizon.cosine), horizon.cosine);
   const VF cubed_cosine = hn::Mul(hn::Mul(e, e), hn::Add(hn::Set(kF, 2.0F), s));
   const VF squared_sine = hn::Mul(e, hn::MulAdd(s, s, hn::Add(one, s)));
   return {hn::Mul(two_thirds, hn::MulAdd(c, cubed_cosine, hn::Mul(n_z, mixed))),
           hn::Mul(two_thirds, hn::MulAdd(c, mixed, hn::Mul(n_z, squared_sine)))};
 }
 
-HWY_INLINE SecondMoments integrate_second(VF c, VF n_z, VF m) {
-  const VF one = hn::Set(kF, 1.0F);
+HWY_INLINE SecondMoments integrate_second(VF c, VF n_z, const Elevation<VF>& horizon) {
   const VF two = hn::Set(kF, 2.0F);
-  const VF half_pi = hn::Set(kF, std::numbers::pi_v<float> / 2);
-  const VF q = hn::Div(one, hn::MulAdd(m, m, one));
-  const VF zenith = hn::NegMulAdd(m, q, hn::Sub(half_pi, arc_tangent(kF, m)));
+  const VF zenith = zenith_part(horizon);
+  const VF q = hn::Mul(horizon.cosine, horizon.cosine);
   const VF fourth = hn::Mul(hn::Set(kF, 0.25F), hn::Mul(q, q));
-  const VF tilted = hn::Mul(m, fourth);
+  const VF tilted = hn::Mul(hn::Mul(horizon.sine, horizon.cosine), hn::Mul(hn::Set(kF, 0.25F), q));  // m q²/4
   const VF along = hn::MulSub(hn::Set(kF, 0.375F), zenith, tilted);
   const VF mixed = hn::MulAdd(hn::Set(kF, 0.125F), zenith, tilted);
   return {hn::Mul(two, hn::MulAdd(c, along, hn::Mul(n_z, fourth))),
@@ -96,9 +98,8 @@ class LaneWalk {
     Bunch bunch;
     bunch.row = row;
     bunch.column = column;
-    bunch.first = static_cast<std::size_t>(row * WalkTile::kSide + column);
     for (std::size_t v = 0; v < kBunch; ++v) {
-      const std::size_t at = bunch.first + v * hn::Lanes(kF);
+      const std::size_t at = bunch.at(v);
       bunch.height[v] = hn::Load(kF, tile_.height.data() + at);
       bunch.tangent[v] =
           hn::MulAdd(hn::Load(kF, tile_.slope_x.data() + at), hn::Set(kF, azimuth_.world_x),
@@ -173,25 +174,24 @@ class LaneWalk {
   /// The lines that the groups of the bunch keep.
   void look_far(const FarView& far, Bunch& bunch) const {
     constexpr int kSide = WalkTile::kGroup;
-    const int lanes = static_cast<int>(hn::Lanes(kF));
-    const auto group_of_lane = hn::ShiftRight<2>(hn::Iota(kI, 0));
     static_assert(kSide == 4);
-    const auto order = hn::IndicesFromVec(kF, group_of_lane);
+    const auto order = hn::IndicesFromVec(kF, hn::ShiftRight<2>(hn::Iota(kI, 0)));
+    const auto at =
+        static_cast<std::size_t>(bunch.row / kSide * (WalkTile::kSide / kSide) + bunch.column / kSide);
     // World distance from the look-out, in the middle of the group, to the receiver, along the azimuth.
     const VF column =
         hn::ConvertTo(kF, hn::Sub(hn::And(hn::Iota(kI, 0), hn::Set(kI, kSide - 1)), hn::Set(kI, kSide / 2)));
-    const float row = static_cast<float>(bunch.row % kSide - kSide / 2);
-    const VF nearer =
-        hn::MulAdd(column, hn::Set(kF, azimuth_.along_column), hn::Set(kF, row * azimuth_.along_row));
+    std::array<VF, kBunch> nearer;
+    for (std::size_t v = 0; v < kBunch; ++v) {
+      const float row = static_cast<float>(static_cast<int>(v) - kSide / 2);
+      nearer[v] =
+          hn::MulAdd(column, hn::Set(kF, azimuth_.along_column), hn::Set(kF, row * azimuth_.along_row));
+    }
     for (std::size_t line = 0; line < FarView::kLines; ++line) {
-      for (std::size_t v = 0; v < kBunch; ++v) {
-        const int group = bunch.row / kSide * (WalkTile::kSide / kSide) +
-                          (bunch.column + static_cast<int>(v) * lanes) / kSide;
-        const auto at = static_cast<std::size_t>(group);
-        const VF height = hn::TableLookupLanes(hn::LoadU(kF, far.height[line].data() + at), order);
-        const VF per_d = hn::TableLookupLanes(hn::LoadU(kF, far.per_distance[line].data() + at), order);
-        raise(bunch, v, height, hn::MulAdd(hn::Mul(nearer, per_d), per_d, per_d));
-      }
+      const VF height = hn::TableLookupLanes(hn::LoadU(kF, far.height[line].data() + at), order);
+      const VF per_d = hn::TableLookupLanes(hn::LoadU(kF, far.per_distance[line].data() + at), order);
+      for (std::size_t v = 0; v < kBunch; ++v)
+        raise(bunch, v, height, hn::MulAdd(hn::Mul(nearer[v], per_d), per_d, per_d));
     }
   }
 
@@ -214,11 +214,20 @@ class LaneWalk {
       const VF from_weight = hn::Set(kF, sample.weight[0]);
       const VF to_weight = hn::Set(kF, sample.weight[1]);
       const VF per_distance = hn::Set(kF, sample.per_distance);
-      for (std::size_t v = 0; v < kBunch; ++v) {
-        const std::size_t lane = v * hn::Lanes(kF);
-        const VF above =
-            hn::MulAdd(to_weight, hn::LoadU(kF, to + lane), hn::Mul(from_weight, hn::LoadU(kF, from + lane)));
+      const auto see_between = [&](std::size_t v, VF first, VF second) HWY_ATTR {
+        const VF above = hn::MulAdd(to_weight, second, hn::Mul(from_weight, first));
         see(sample, v, hn::NegMulAdd(per_distance, bunch.height[v], above));
+      };
+      if (to - from == window.width) {  // what is below one row is the next one's own
+        VF first = hn::LoadU(kF, from);
+        for (std::size_t v = 0; v < kBunch; ++v, to += window.width) {
+          const VF second = hn::LoadU(kF, to);
+          see_between(v, first, second);
+          first = second;
+        }
+      } else {
+        for (std::size_t v = 0; v < kBunch; ++v, from += window.width, to += window.width)
+          see_between(v, hn::LoadU(kF, from), hn::LoadU(kF, to));
       }
     }
   }
@@ -246,16 +255,15 @@ class LaneWalk {
       const int level = window.level;
       for (std::size_t k = 0; k < reach.caps[ring].size(); ++k) {
         const RingSample& sample = azimuth_.rings[ring][k];
-        const int row = (tile_.first_row + bunch.row + sample.row) >> level;
-        const float* line = window.values.data() + std::ptrdiff_t{row - window.first_row} * window.width -
-                            window.first_column;
+        const int first = tile_.first_column + bunch.column + sample.column;
+        const float* column = window.values.data() + (first >> level) - window.first_column;
+        const VI blocks = hn::ShiftRightSame(hn::Iota(kI, first & ((1 << level) - 1)), level);
+        const auto order = hn::IndicesFromVec(kF, blocks);
         const VF per_distance = hn::Set(kF, sample.per_distance);
         for (std::size_t v = 0; v < kBunch; ++v) {
-          const int first =
-              tile_.first_column + bunch.column + sample.column + static_cast<int>(v * hn::Lanes(kF));
-          const VI blocks = hn::ShiftRightSame(hn::Iota(kI, first & ((1 << level) - 1)), level);
-          const VF height =
-              hn::TableLookupLanes(hn::LoadU(kF, line + (first >> level)), hn::IndicesFromVec(kF, blocks));
+          const int row = (tile_.first_row + bunch.row + static_cast<int>(v) + sample.row) >> level;
+          const float* blocks_of_row = column + std::ptrdiff_t{row - window.first_row} * window.width;
+          const VF height = hn::TableLookupLanes(hn::LoadU(kF, blocks_of_row), order);
           see(sample, reach.caps[ring][k], v, hn::Mul(hn::Sub(height, bunch.height[v]), per_distance));
         }
       }
