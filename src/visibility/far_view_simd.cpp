@@ -14,39 +14,50 @@ HWY_BEFORE_NAMESPACE();
 namespace heightlight::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// A row of wide groups is one vector, or several.
-using F = hn::CappedTag<float, WalkTile::kSide / WalkTile::kWideGroup>;
-using I = hn::RebindToSigned<F>;
-using VF = hn::Vec<F>;
-constexpr F kF;
-constexpr I kI;
+// A row of groups is one vector, or several; so is a row of wide groups.
+using Groups = hn::CappedTag<float, WalkTile::kSide / WalkTile::kGroup>;
+using WideGroups = hn::CappedTag<float, WalkTile::kSide / WalkTile::kWideGroup>;
 
+template <class D>
 struct Envelopes {
-  std::array<VF, FarView::kLines> z, slope, height, per_distance;
+  using V = hn::Vec<D>;
+  static constexpr D kD{};
+
+  std::array<V, FarView::kLines> z, slope, height, per_distance;
 
   Envelopes(const ReceiverGroups& groups, std::size_t first) {
-    const VF lowest = hn::LoadU(kF, groups.lowest.data() + first);
-    const VF highest = hn::LoadU(kF, groups.highest.data() + first);
-    z = {lowest, hn::Mul(hn::Set(kF, 0.5F), hn::Add(lowest, highest)), highest};
-    slope.fill(hn::Set(kF, kNoHeight));
-    height.fill(hn::Set(kF, kNoHeight));
-    per_distance.fill(hn::Set(kF, kNowhere));
+    const V lowest = hn::LoadU(kD, groups.lowest.data() + first);
+    const V highest = hn::LoadU(kD, groups.highest.data() + first);
+    z = {lowest, hn::Mul(hn::Set(kD, 0.5F), hn::Add(lowest, highest)), highest};
+    slope.fill(hn::Set(kD, kNoHeight));
+    height.fill(hn::Set(kD, kNoHeight));
+    per_distance.fill(hn::Set(kD, kNowhere));
   }
 
-  HWY_INLINE void see(VF v, VF per_d) {
+  HWY_INLINE void see(V v, V per_d) {
     for (std::size_t i = 0; i < z.size(); ++i) {
-      const VF s = hn::Mul(hn::Sub(v, z[i]), per_d);
+      const V s = hn::Mul(hn::Sub(v, z[i]), per_d);
       const auto leads = hn::Gt(s, slope[i]);
       slope[i] = hn::Max(slope[i], s);
       height[i] = hn::IfThenElse(leads, v, height[i]);
       per_distance[i] = hn::IfThenElse(leads, per_d, per_distance[i]);
     }
   }
+
+  void store(float* heights, float* per_distances, std::size_t stride) const {
+    for (std::size_t i = 0; i < z.size(); ++i) {
+      hn::StoreU(height[i], kD, heights + i * stride);
+      hn::StoreU(per_distance[i], kD, per_distances + i * stride);
+    }
+  }
 };
 
 /// Looks at a ring from groups `side` texels apart, the first of them at (row, column).
+template <class D>
 HWY_INLINE void look_at_ring(const WalkTile& tile, const AzimuthTable& azimuth, int ring, int row, int column,
-                             int side, Envelopes& envelopes) {
+                             int side, Envelopes<D>& envelopes) {
+  constexpr D kD{};
+  constexpr hn::RebindToSigned<D> kI{};
   const HeightWindow& window = tile.windows[static_cast<std::size_t>(ring)];
   const int level = window.level;
   const auto spread = hn::Mul(hn::Iota(kI, 0), hn::Set(kI, side));
@@ -56,62 +67,68 @@ HWY_INLINE void look_at_ring(const WalkTile& tile, const AzimuthTable& azimuth, 
                          std::ptrdiff_t{((row + sample.row) >> level) - window.first_row} * window.width +
                          ((start >> level) - window.first_column);
     const int phase = start & ((1 << level) - 1);
-    const auto order = hn::IndicesFromVec(kF, hn::ShiftRightSame(hn::Add(hn::Set(kI, phase), spread), level));
-    envelopes.see(hn::TableLookupLanes(hn::LoadU(kF, first), order), hn::Set(kF, sample.per_distance));
+    const auto order = hn::IndicesFromVec(kD, hn::ShiftRightSame(hn::Add(hn::Set(kI, phase), spread), level));
+    envelopes.see(hn::TableLookupLanes(hn::LoadU(kD, first), order), hn::Set(kD, sample.per_distance));
   }
 }
 
-/// The children of wide groups `half` (0: the first half of the vector, 1: the second), twice each.
-HWY_INLINE VF twice(VF parents, int half) {
-  const int lanes = static_cast<int>(hn::Lanes(kF));
-  const auto order = hn::ShiftRight<1>(hn::Add(hn::Iota(kI, 0), hn::Set(kI, half * lanes)));
-  return hn::TableLookupLanes(parents, hn::IndicesFromVec(kF, order));
+/// The lines of a row of wide groups, padded as FarView is.
+struct WideRow {
+  static constexpr std::size_t kStride = WalkTile::kSide / WalkTile::kWideGroup + kReadPadding;
+  std::array<float, FarView::kLines * kStride> height{};
+  std::array<float, FarView::kLines * kStride> per_distance{};
+};
+
+void look_from_wide_groups(const WalkTile& tile, const AzimuthTable& azimuth, int i, WideRow& row) {
+  const ReceiverGroups& groups = tile.wide_groups;
+  const int rings = static_cast<int>(azimuth.rings.size());
+  for (int j = 0; j < groups.across; j += static_cast<int>(hn::Lanes(WideGroups()))) {
+    Envelopes<WideGroups> envelopes(groups, static_cast<std::size_t>(i * groups.across + j));
+    for (int ring = kWideGroupRing; ring <= rings; ++ring) {
+      look_at_ring(tile, azimuth, ring, tile.first_row + i * groups.side + groups.side / 2,
+                   tile.first_column + j * groups.side + groups.side / 2, groups.side, envelopes);
+    }
+    envelopes.store(row.height.data() + j, row.per_distance.data() + j, WideRow::kStride);
+  }
 }
 
-/// Finishes a vector of groups in row i of the tile's groups, from group j on, below their parents' lines.
-HWY_INLINE void look_from_children(const WalkTile& tile, const AzimuthTable& azimuth,
-                                   const Envelopes& parents, int i, int j, int half, FarView& view) {
+/// Finishes row i of the tile's groups below the lines of the wide ones that they belong to.
+void look_from_groups(const WalkTile& tile, const AzimuthTable& azimuth, const WideRow& wide, int i,
+                      FarView& view) {
+  constexpr Groups kD{};
+  constexpr hn::RebindToSigned<Groups> kI{};
   const ReceiverGroups& groups = tile.groups;
-  const std::size_t first = static_cast<std::size_t>(i * groups.across + j);
-  Envelopes own(groups, first);
-  // Children sit two texels before or behind the look-out of their parents.
+  const auto each_twice = hn::IndicesFromVec(kD, hn::ShiftRight<1>(hn::Iota(kI, 0)));
+  // Groups sit two texels before or behind the look-out of the wide ones.
   const float down = static_cast<float>(i % 2 == 0 ? -2 : 2) * azimuth.along_row;
-  const VF right =
-      hn::IfThenElse(hn::RebindMask(kF, hn::TestBit(hn::Iota(kI, 0), hn::Set(kI, 1))),
-                     hn::Set(kF, 2 * azimuth.along_column), hn::Set(kF, -2 * azimuth.along_column));
-  const VF nearer = hn::Add(hn::Set(kF, down), right);
-  for (std::size_t line = 0; line < own.z.size(); ++line) {
-    const VF per_d = twice(parents.per_distance[line], half);
-    own.see(twice(parents.height[line], half), hn::MulAdd(hn::Mul(nearer, per_d), per_d, per_d));
-  }
-  if (static_cast<int>(azimuth.rings.size()) >= kGroupRing) {
-    look_at_ring(tile, azimuth, kGroupRing, tile.first_row + i * groups.side + groups.side / 2,
-                 tile.first_column + j * groups.side + groups.side / 2, groups.side, own);
-  }
-  for (std::size_t line = 0; line < own.z.size(); ++line) {
-    hn::StoreU(own.height[line], kF, view.height[line].data() + first);
-    hn::StoreU(own.per_distance[line], kF, view.per_distance[line].data() + first);
+  const auto is_second = hn::RebindMask(kD, hn::TestBit(hn::Iota(kI, 0), hn::Set(kI, 1)));
+  const auto right = hn::IfThenElse(is_second, hn::Set(kD, 2 * azimuth.along_column),
+                                    hn::Set(kD, -2 * azimuth.along_column));
+  const auto nearer = hn::Add(hn::Set(kD, down), right);
+  for (int j = 0; j < groups.across; j += static_cast<int>(hn::Lanes(kD))) {
+    const auto first = static_cast<std::size_t>(i * groups.across + j);
+    Envelopes<Groups> own(groups, first);
+    for (std::size_t line = 0; line < FarView::kLines; ++line) {
+      const std::size_t at = line * WideRow::kStride + static_cast<std::size_t>(j) / 2;
+      const auto height = hn::TableLookupLanes(hn::LoadU(kD, wide.height.data() + at), each_twice);
+      const auto per_d = hn::TableLookupLanes(hn::LoadU(kD, wide.per_distance.data() + at), each_twice);
+      own.see(height, hn::MulAdd(hn::Mul(nearer, per_d), per_d, per_d));
+    }
+    if (static_cast<int>(azimuth.rings.size()) >= kGroupRing) {
+      look_at_ring(tile, azimuth, kGroupRing, tile.first_row + i * groups.side + groups.side / 2,
+                   tile.first_column + j * groups.side + groups.side / 2, groups.side, own);
+    }
+    own.store(view.height[0].data() + first, view.per_distance[0].data() + first, view.height[0].size());
   }
 }
 
 void look_far_lanes(const WalkTile& tile, const AzimuthTable& azimuth, FarView& view) {
-  // A vector holds the children of a wide group in pairs.
-  if constexpr (hn::MaxLanes(kF) < 2) return look_far_scalar(tile, azimuth, view);
-  const int rings = static_cast<int>(azimuth.rings.size());
-  const int lanes = static_cast<int>(hn::Lanes(kF));
-  const ReceiverGroups& wide = tile.wide_groups;
-  for (int row = 0; row * wide.side < tile.rows; ++row) {
-    for (int column = 0; column < wide.across; column += lanes) {
-      Envelopes shared(wide, static_cast<std::size_t>(row * wide.across + column));
-      for (int ring = kWideGroupRing; ring <= rings; ++ring) {
-        look_at_ring(tile, azimuth, ring, tile.first_row + row * wide.side + wide.side / 2,
-                     tile.first_column + column * wide.side + wide.side / 2, wide.side, shared);
-      }
-      for (int child = 0; child < 4; ++child) {
-        look_from_children(tile, azimuth, shared, 2 * row + child / 2, 2 * column + child % 2 * lanes,
-                           child % 2, view);
-      }
-    }
+  // Groups come in pairs, which are of one wide group.
+  if constexpr (hn::MaxLanes(Groups()) < 2) return look_far_scalar(tile, azimuth, view);
+  WideRow wide;
+  for (int i = 0; i * WalkTile::kWideGroup < tile.rows; ++i) {
+    look_from_wide_groups(tile, azimuth, i, wide);
+    for (const int row : {2 * i, 2 * i + 1}) look_from_groups(tile, azimuth, wide, row, view);
   }
 }
 

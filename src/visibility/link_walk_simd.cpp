@@ -202,10 +202,11 @@ void walk_links_lanes(const WalkTile& tile, const std::vector<LinkAzimuth>& azim
                       std::vector<std::uint8_t>& stream) {
   const int lanes = static_cast<int>(hn::Lanes(kF));
   const std::size_t rings = azimuths.empty() ? 0 : azimuths.front().walk.rings.size();
+  const RingBounds bounds(tile);
   std::vector<float> highest(azimuths.size() * rings);
   for (std::size_t k = 0; k < azimuths.size(); ++k) {
     for (std::size_t ring = 0; ring < rings; ++ring) {
-      highest[k * rings + ring] = ring_highest(tile, azimuths[k].walk, static_cast<int>(ring) + 1);
+      highest[k * rings + ring] = bounds.highest(azimuths[k].walk, static_cast<int>(ring) + 1);
     }
   }
   BlockWeights weights;

@@ -8,22 +8,6 @@
 namespace heightlight {
 namespace {
 
-constexpr int kCoarse = 8;  // values a side that one entry of HeightWindow::coarse bounds
-
-void bound_values(HeightWindow& window) {
-  const int wide = window.coarse_width();
-  const int high = (window.height + kCoarse - 1) / kCoarse;
-  window.coarse.assign(static_cast<std::size_t>(wide) * static_cast<std::size_t>(high), kNoHeight);
-  for (int row = 0; row < window.height; ++row) {
-    const float* values = window.values.data() + std::ptrdiff_t{row} * window.width;
-    float* bounds = window.coarse.data() + std::ptrdiff_t{row / kCoarse} * wide;
-    for (int column = 0; column < window.width; ++column) {
-      float& bound = bounds[column / kCoarse];
-      bound = std::max(bound, values[column]);
-    }
-  }
-}
-
 ReceiverGroups span_groups(const WalkTile& tile, int side) {
   ReceiverGroups groups;
   groups.side = side;
@@ -81,7 +65,11 @@ std::vector<ColumnRun> column_runs(const std::vector<int>& columns) {
 }
 
 void copy_heights(const float* heights, int count, float reference, float* out) {
-  for (int i = 0; i < count; ++i) out[i] = std::isnan(heights[i]) ? kNoHeight : heights[i] - reference;
+#pragma omp simd
+  for (int i = 0; i < count; ++i) {
+    const float height = heights[i] - reference;
+    out[i] = std::isnan(height) ? kNoHeight : height;
+  }
 }
 
 void fill_nearest(HeightWindow& window, const Image<float>& heights, bool tiles, float reference) {
@@ -109,19 +97,25 @@ void fill_blocks(HeightWindow& window, const HeightMips& mips, const Surface& su
   }
   const int level = std::min(window.level, static_cast<int>(mips.levels.size()));
   const HeightMips::Level& blocks = mips.levels[static_cast<std::size_t>(level) - 1];
-  std::vector<int> rows =
+  const std::vector<int> rows =
       block_sources(window.first_row, window.height, window.level, surface.height(), surface.tiles());
-  std::vector<int> columns =
-      block_sources(window.first_column, window.width, window.level, surface.width(), surface.tiles());
+  const std::vector<ColumnRun> runs = column_runs(
+      block_sources(window.first_column, window.width, window.level, surface.width(), surface.tiles()));
   float* out = window.values.data();
   for (const int row : rows) {
-    for (const int column : columns) {
-      float height = kNoHeight;
-      if (row >= 0 && column >= 0) {
-        const float mean = blocks.mean(row, column);
-        if (mean != kNoHeight) height = mean + peak_share * (blocks.highest(row, column) - mean) - reference;
+    for (const ColumnRun& run : runs) {
+      if (row < 0 || run.map_column < 0) {
+        std::fill_n(out, run.count, kNoHeight);
+      } else {
+        const float* mean = &blocks.mean(row, run.map_column);
+        const float* highest = &blocks.highest(row, run.map_column);
+#pragma omp simd
+        for (int i = 0; i < run.count; ++i) {
+          const float height = mean[i] + peak_share * (highest[i] - mean[i]) - reference;
+          out[i] = mean[i] == kNoHeight ? kNoHeight : height;
+        }
       }
-      *out++ = height;
+      out += run.count;
     }
   }
 }
@@ -159,8 +153,9 @@ void WalkTile::load(const Surface& surface, const HeightMips& mips, const WalkOp
       height[at] = present[at] ? map(row + i, column + j) - reference : -kNoHeight;
       const Eigen::Vector3f normal =
           present[at] ? surface.normal(row + i, column + j) : Eigen::Vector3f(Eigen::Vector3f::UnitZ());
-      slope_x[at] = -normal.x() / normal.z();
-      slope_y[at] = -normal.y() / normal.z();
+      const float falls = -1 / normal.z();
+      slope_x[at] = falls * normal.x();
+      slope_y[at] = falls * normal.y();
       normal_z[at] = normal.z();
     }
   }
@@ -173,13 +168,33 @@ void WalkTile::load(const Surface& surface, const HeightMips& mips, const WalkOp
     HeightWindow& window = windows[static_cast<std::size_t>(ring)];
     place(window, ring_level(ring), 2 * options.fineness + 1, row, column);
     fill_blocks(window, mips, surface, options.peak_share, reference);
-    bound_values(window);
   }
 }
 
-float ring_highest(const WalkTile& tile, const AzimuthTable& azimuth, int ring) {
-  const HeightWindow& window = tile.windows[static_cast<std::size_t>(ring)];
-  const int wide = window.coarse_width();
+constexpr int kCoarse = 8;  // values a side that one bound is for
+
+RingBounds::RingBounds(const WalkTile& tile) : tile_(tile) {
+  for (std::size_t ring = 1; ring < tile.windows.size(); ++ring) {
+    const HeightWindow& window = tile.windows[ring];
+    const int wide = (window.width + kCoarse - 1) / kCoarse;
+    const int high = (window.height + kCoarse - 1) / kCoarse;
+    std::vector<float>& coarse =
+        coarse_.emplace_back(static_cast<std::size_t>(wide) * static_cast<std::size_t>(high), kNoHeight);
+    for (int row = 0; row < window.height; ++row) {
+      const float* values = window.values.data() + std::ptrdiff_t{row} * window.width;
+      float* bounds = coarse.data() + std::ptrdiff_t{row / kCoarse} * wide;
+      for (int column = 0; column < window.width; ++column) {
+        float& bound = bounds[column / kCoarse];
+        bound = std::max(bound, values[column]);
+      }
+    }
+  }
+}
+
+float RingBounds::highest(const AzimuthTable& azimuth, int ring) const {
+  const HeightWindow& window = tile_.windows[static_cast<std::size_t>(ring)];
+  const std::vector<float>& coarse = coarse_[static_cast<std::size_t>(ring) - 1];
+  const int wide = (window.width + kCoarse - 1) / kCoarse;
   const auto block = [level = window.level](int first, int last, int offset, int origin) {
     return std::pair{(((first + offset) >> level) - origin) / kCoarse,
                      (((last + offset) >> level) - origin) / kCoarse};
@@ -187,12 +202,12 @@ float ring_highest(const WalkTile& tile, const AzimuthTable& azimuth, int ring) 
   float highest = kNoHeight;
   for (const RingSample& sample : azimuth.rings[static_cast<std::size_t>(ring) - 1]) {
     const auto [top, bottom] =
-        block(tile.first_row, tile.first_row + WalkTile::kSide - 1, sample.row, window.first_row);
-    const auto [left, right] =
-        block(tile.first_column, tile.first_column + WalkTile::kSide - 1, sample.column, window.first_column);
+        block(tile_.first_row, tile_.first_row + WalkTile::kSide - 1, sample.row, window.first_row);
+    const auto [left, right] = block(tile_.first_column, tile_.first_column + WalkTile::kSide - 1,
+                                     sample.column, window.first_column);
     for (int i = top; i <= bottom; ++i) {
       for (int j = left; j <= right; ++j)
-        highest = std::max(highest, window.coarse[static_cast<std::size_t>(i * wide + j)]);
+        highest = std::max(highest, coarse[static_cast<std::size_t>(i * wide + j)]);
     }
   }
   return highest;

@@ -21,9 +21,7 @@ struct HeightWindow {
   int height = 0;
   std::vector<float>
       values;  ///< padded by kReadPadding; heights above the tile's reference; kNoHeight where nothing is
-  std::vector<float> coarse;  ///< highest of 8 × 8 values each, ⌈width / 8⌉ per row
 
-  int coarse_width() const { return (width + 7) / 8; }
   /// Height of a block that lies in the window.
   float at(int row, int column) const {
     return values[static_cast<std::size_t>((row - first_row) * width + column - first_column)];
@@ -92,8 +90,17 @@ struct WalkTile : TileFrame {
             const TileFrame& frame);
 };
 
-/// Upper bound of the heights, above the tile's reference, that ring r of an azimuth meets from anywhere in a
-/// tile.
-float ring_highest(const WalkTile& tile, const AzimuthTable& azimuth, int ring);
+/// Upper bounds of what a tile's receivers meet in rings.
+class RingBounds {
+ public:
+  explicit RingBounds(const WalkTile& tile);
+
+  /// Of the heights, above the tile's reference, that ring r of an azimuth meets from anywhere in the tile.
+  float highest(const AzimuthTable& azimuth, int ring) const;
+
+ private:
+  const WalkTile& tile_;
+  std::vector<std::vector<float>> coarse_;  ///< [r − 1]: highest of 8 × 8 values each of ring r's window
+};
 
 }  // namespace heightlight

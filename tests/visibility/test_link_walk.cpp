@@ -146,9 +146,9 @@ TEST_CASE("the link walk's lanes and its scalar twin tell the same light on ever
         other_replay = std::max(other_replay, std::fabs(double{fast_means[at]} - double{means[at]}));
       });
       CHECK(other_steps <= 1);  // rounding of the carry that is left at the end
-      // rounding: a step in an entry's neighbour, 1/(kQuantum K) = 1.6e-3 of the field's differences there,
-      // which are up to a third
-      CHECK(other_light < 6e-4);
+      // rounding: where a weight lies between two steps, one falls to an entry's neighbour, 1/(kQuantum K) =
+      // 1.6e-3 of the field's differences there, which are up to a third; twice in a receiver's few hundred
+      CHECK(other_light < 2 * 1.6e-3 / 3);
       CHECK(other_replay < 1e-6);  // rounding of sums (measured: 2.4e-7)
     }
   });
