@@ -54,7 +54,9 @@ void print_embree_ways(const EmbreeBest& best) {
     std::printf("\n%-26s", to_string(modes[i]).c_str());
     for (const EmbreeTree& tree : best.trees) std::printf(" %16.1f", tree.ray_core_ns[i]);
   }
-  std::printf("\nchosen: %s, tree of %.3f core-s\n", to_string(best.mode).c_str(), best.built.core);
+  std::printf("\nchosen: %s, tree of %.3f core-s; of packets: %s, tree of %.3f core-s\n",
+              to_string(best.any.mode).c_str(), best.any.built.core, to_string(best.packets.mode).c_str(),
+              best.packets.built.core);
 }
 
 /// How far a method is from the reference when its own noise is gone.

@@ -73,7 +73,7 @@ Method planned_sky_method(const Surface& surface) {
 
 std::vector<Method> horizon_sky_methods(const Surface& surface) {
   std::vector<Method> methods;
-  for (const int fineness : {8, 16, 32}) methods.push_back(walk_method(surface, fineness));
+  for (const int fineness : {8, 12, 16, 24, 32}) methods.push_back(walk_method(surface, fineness));
   methods.push_back(planned_sky_method(surface));
   return methods;
 }

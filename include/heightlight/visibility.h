@@ -22,7 +22,7 @@ void check_ray_options(const RayOptions& options);
 /// How a horizon walk looks around; each is a bargain between time and error.
 struct WalkOptions {
   int azimuths = 32;  ///< K, even, 2 … 65536; φ_k = 2π (k + ¼) / K in the world, from x to y
-  int fineness = 16;  ///< ν, 8, 16, 32 …: samples per octave of distance; all breakpoints up to ν/4 texels
+  int fineness = 16;  ///< ν, 8, 16, 32 …: samples per octave of distance; all breakpoints up to ν/2 texels
   float peak_share =
       0.3F;  ///< of a block's highest sample in the height that stands for it; the rest is its mean
 };

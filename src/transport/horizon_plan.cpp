@@ -30,9 +30,9 @@ constexpr int kFewestAzimuths = 4;
 /// Shares of the peaks tried: 0, 0.3 and this.
 constexpr float kHighestPeakShare = 0.6F;
 
-/// Cost of a walk's azimuth by its fineness, in units of ν: measured 4.8, 6.4, 8.1, 11.2 and 14.3 ns for ν of
+/// Cost of a walk's azimuth by its fineness, in units of ν: measured 4.3, 5.4, 7.1, 9.1 and 11.5 ns for ν of
 /// 8, 12, 16, 24 and 32.
-double azimuth_cost(int fineness) { return 4 + fineness; }
+double azimuth_cost(int fineness) { return 5 + fineness; }
 
 /// The walk that should reach the error at the least cost, as far as its sampling goes: what that leaves of
 /// the error, azimuths must fill. Where no sampling is good enough, the best.

@@ -83,7 +83,7 @@ void walk(const WalkTile& tile, const LinkAzimuth& azimuth, int i, int j, NodeWe
   walker.seen = walker.mass(walker.slope, q);
   for (std::size_t k = 0; k < azimuth.walk.near.size(); ++k) {
     const NearSample& sample = azimuth.walk.near[k];
-    const HeightWindow& window = tile.windows[0];
+    const HeightWindow& window = k < azimuth.walk.lifted ? tile.windows[0] : tile.lifted;
     const float weighted = sample.weight[0] * window.at(row + sample.row[0], column + sample.column[0]) +
                            sample.weight[1] * window.at(row + sample.row[1], column + sample.column[1]);
     walker.look(weighted - sample.per_distance * walker.z, sample.way, azimuth.light.near[k], weights);

@@ -47,10 +47,14 @@ class LinkLanes {
   }
 
   void walk_near() {
-    const HeightWindow& window = tile_.windows[0];
-    const float* here = window.values.data() + std::ptrdiff_t{row_ - window.first_row} * window.width +
-                        (column_ - window.first_column);
-    for (std::size_t k = 0; k < azimuth_.walk.near.size(); ++k) {
+    walk_near_of(tile_.windows[0], 0, azimuth_.walk.lifted);
+    walk_near_of(tile_.lifted, azimuth_.walk.lifted, azimuth_.walk.near.size());
+  }
+
+  /// Near samples `first` to `end`, of one window's heights.
+  void walk_near_of(const HeightWindow& window, std::size_t first, std::size_t end) {
+    const float* here = window.place(row_, column_);
+    for (std::size_t k = first; k < end; ++k) {
       const NearSample& sample = azimuth_.walk.near[k];
       const float* from = here + sample.offset[0];
       const float* to = here + sample.offset[1];

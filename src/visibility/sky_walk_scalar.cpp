@@ -10,11 +10,12 @@ namespace {
 
 constexpr float kHalfPi = std::numbers::pi_v<float> / 2;
 
-/// Slope under which the receiver in row i and column j of the tile sees a near sample.
-float near_slope(const WalkTile& tile, const NearSample& sample, int i, int j) {
+/// Slope under which the receiver in row i and column j of the tile sees near sample k.
+float near_slope(const WalkTile& tile, const AzimuthTable& azimuth, std::size_t k, int i, int j) {
+  const NearSample& sample = azimuth.near[k];
   const int row = tile.first_row + i;
   const int column = tile.first_column + j;
-  const HeightWindow& window = tile.windows[0];
+  const HeightWindow& window = k < azimuth.lifted ? tile.windows[0] : tile.lifted;
   const float weighted = sample.weight[0] * window.at(row + sample.row[0], column + sample.column[0]) +
                          sample.weight[1] * window.at(row + sample.row[1], column + sample.column[1]);
   return weighted - sample.per_distance * tile.height[static_cast<std::size_t>(i * WalkTile::kSide + j)];
@@ -32,7 +33,8 @@ float horizon_slope(const WalkTile& tile, const AzimuthTable& azimuth, const Far
                     float tangent) {
   const float z = tile.height[static_cast<std::size_t>(i * WalkTile::kSide + j)];
   float slope = tangent;
-  for (const NearSample& sample : azimuth.near) slope = std::max(slope, near_slope(tile, sample, i, j));
+  for (std::size_t k = 0; k < azimuth.near.size(); ++k)
+    slope = std::max(slope, near_slope(tile, azimuth, k, i, j));
   constexpr int kSide = WalkTile::kGroup;
   const auto group = static_cast<std::size_t>(i / kSide * (WalkTile::kSide / kSide) + j / kSide);
   const float nearer = static_cast<float>(i % kSide - kSide / 2) * azimuth.along_row +
@@ -75,7 +77,7 @@ float horizon_slope_within(const WalkTile& tile, const AzimuthTable& azimuth, co
   ProfilePoint begin;
   for (std::size_t k = 0; k < reach.near; ++k) {
     const NearSample& sample = azimuth.near[k];
-    const float seen = near_slope(tile, sample, i, j);
+    const float seen = near_slope(tile, azimuth, k, i, j);
     const float way = 1 / sample.per_distance;
     const ProfilePoint end{way, std::max(seen * way, reach.deepest)};
     const bool inside = end.squared() <= reach.squared;
@@ -208,7 +210,7 @@ SliceSums slice_within(const WalkTile& tile, const AzimuthTable& azimuth, const 
   };
   for (std::size_t k = 0; k < reach.near; ++k) {
     const NearSample& sample = azimuth.near[k];
-    const float seen = near_slope(tile, sample, i, j);
+    const float seen = near_slope(tile, azimuth, k, i, j);
     const float way = 1 / sample.per_distance;
     const ProfilePoint end{way, std::max(seen * way, reach.deepest)};
     see(begin, end, seen);

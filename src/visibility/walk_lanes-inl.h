@@ -9,6 +9,7 @@
 
 #include <hwy/highway.h>
 
+#include <algorithm>
 #include <array>
 
 #include "core/elevation-inl.h"
@@ -203,27 +204,33 @@ class LaneWalk {
   /// Calls see(sample, v, slope) for the first near samples and each vector of the bunch.
   template <class See>
   HWY_INLINE void for_near(const Bunch& bunch, std::size_t count, See&& see) const {
-    const HeightWindow& window = tile_.windows[0];
-    const float* here = window.values.data() +
-                        std::ptrdiff_t{tile_.first_row + bunch.row - window.first_row} * window.width +
-                        (tile_.first_column + bunch.column - window.first_column);
-    for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t lifted = std::min(count, azimuth_.lifted);
+    for_near_of(bunch, tile_.windows[0], 0, lifted, see);
+    for_near_of(bunch, tile_.lifted, lifted, count, see);
+  }
+
+  /// Likewise, for near samples `first` to `end`, of one window's heights.
+  template <class See>
+  HWY_INLINE void for_near_of(const Bunch& bunch, const HeightWindow& window, std::size_t first,
+                              std::size_t end, See& see) const {
+    const float* here = window.place(tile_.first_row + bunch.row, tile_.first_column + bunch.column);
+    for (std::size_t k = first; k < end; ++k) {
       const NearSample& sample = azimuth_.near[k];
       const float* from = here + sample.offset[0];
       const float* to = here + sample.offset[1];
       const VF from_weight = hn::Set(kF, sample.weight[0]);
       const VF to_weight = hn::Set(kF, sample.weight[1]);
       const VF per_distance = hn::Set(kF, sample.per_distance);
-      const auto see_between = [&](std::size_t v, VF first, VF second) HWY_ATTR {
-        const VF above = hn::MulAdd(to_weight, second, hn::Mul(from_weight, first));
+      const auto see_between = [&](std::size_t v, VF from_height, VF to_height) HWY_ATTR {
+        const VF above = hn::MulAdd(to_weight, to_height, hn::Mul(from_weight, from_height));
         see(sample, v, hn::NegMulAdd(per_distance, bunch.height[v], above));
       };
       if (to - from == window.width) {  // what is below one row is the next one's own
-        VF first = hn::LoadU(kF, from);
+        VF own = hn::LoadU(kF, from);
         for (std::size_t v = 0; v < kBunch; ++v, to += window.width) {
-          const VF second = hn::LoadU(kF, to);
-          see_between(v, first, second);
-          first = second;
+          const VF below = hn::LoadU(kF, to);
+          see_between(v, own, below);
+          own = below;
         }
       } else {
         for (std::size_t v = 0; v < kBunch; ++v, from += window.width, to += window.width)

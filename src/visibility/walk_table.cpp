@@ -65,10 +65,14 @@ void add_crossings(double rate, double from, double to, int step, std::vector<Cr
   }
 }
 
-std::vector<NearSample> near_samples(const GridDirection& g, int fineness) {
-  const double exact = fineness / 2.0;
-  const double dense = 2.0 * fineness;
-  const double reach = 4.0 * fineness;
+/// Ways up to which all breakpoints are samples, all crossings with the rows or columns, and every other.
+struct NearWays {
+  double exact, dense, reach;
+};
+NearWays near_ways(int fineness) { return {0.5 * fineness, 1.5 * fineness, 4.0 * fineness}; }
+
+std::vector<NearSample> near_samples(const GridDirection& g, const NearWays& ways) {
+  const auto [exact, dense, reach] = ways;
   std::vector<Crossing> crossings;
   const auto column = [&](double t, int i) { return at_column(g, t, i); };
   const auto row = [&](double t, int i) { return at_row(g, t, i); };
@@ -122,7 +126,7 @@ void check_azimuths(int azimuths) {
 
 int near_window_width(const WalkOptions& options) { return kTileSide + 2 + 2 * near_reach(options); }
 
-int near_reach(const WalkOptions& options) { return 4 * options.fineness + 1; }
+int near_reach(const WalkOptions& options) { return 4 * options.fineness + 2; }
 
 int ring_count(const Surface& surface, const WalkOptions& options) {
   constexpr double kLeastSlope = 0.004;
@@ -143,7 +147,9 @@ AzimuthTable make_azimuth_table(const Surface& surface, const WalkOptions& optio
   table.world_y = static_cast<float>(snapped(std::sin(azimuth_rad)));
   table.along_column = static_cast<float>(g.u * g.length);
   table.along_row = static_cast<float>(g.v * g.length);
-  table.near = near_samples(g, options.fineness);
+  const NearWays ways = near_ways(options.fineness);
+  table.near = near_samples(g, ways);
+  while (table.lifted < table.near.size() && table.near[table.lifted].way <= ways.dense) ++table.lifted;
   for (NearSample& sample : table.near) {
     for (int s = 0; s < 2; ++s)
       sample.offset[s] = sample.row[s] * near_window_width(options) + sample.column[s];

@@ -12,8 +12,13 @@
 // What is seen at height v above the receiver's z stands under the slope (v − z) / (t ℓ).
 //
 //   * Up to t = ν/2, at every breakpoint of the profile: the crossings with rows, columns and diagonals.
-//   * Up to t = 2ν, at the crossings with the rows or the columns, whichever the azimuth meets more squarely,
-//     interpolated between the two samples beside them; up to 4ν, at every other of these.
+//   * Up to t = 3ν/2, at the crossings with the rows or the columns, whichever the azimuth meets more
+//   squarely,
+//     interpolated between the two samples beside them.
+//   * Up to t = 4ν, at every other of these, of heights lifted towards the highest around them (WalkTile).
+//     Samples miss the peaks between them; this makes up for it in the mean. RMSE in A on brick, fBm and
+//     Ground054 at 1024², ν = 16, all beyond 4ν exact: .00054, .00018, .00069 from 48 samples, where
+//     crossings to 2ν and then every other, none lifted, made .00065, .00022, .00092 from 52.
 //   * Ring r ≥ 1, t from 2ν 2^r to 4ν 2^r: ν samples, 2^(r+1) apart, of the block of level r + 1 that each
 //     falls into.
 //
@@ -31,7 +36,7 @@ struct NearSample {
   int column[2] = {0, 0};
   float weight[2] = {0, 0};  ///< of each sample, over the world distance: they sum to `per_distance`
   float per_distance = 0;    ///< 1 / (t ℓ)
-  int offset[2] = {0, 0};    ///< of each sample from the receiver's, in the tile's window of the heights
+  int offset[2] = {0, 0};    ///< of each sample from the receiver's, in the tile's windows of single heights
 };
 
 /// The place that a ring looks at, rounded to a sample: whole texels from the receiver's.
@@ -62,10 +67,11 @@ struct AzimuthTable {
       1;  ///< world distance gained along the azimuth by moving one column to the right: g_u ℓ
   float along_row = 0;                         ///< and one row down: g_v ℓ
   std::vector<NearSample> near;                ///< by rising way
+  std::size_t lifted = 0;                      ///< of `near`, the first that looks at lifted heights
   std::vector<std::vector<RingSample>> rings;  ///< rings[r − 1] is ring r
 };
 
-/// Samples in a row of the window that near samples are read from: `offset` above counts in it.
+/// Samples in a row of the windows that near samples are read from: `offset` above counts in them.
 int near_window_width(const WalkOptions& options);
 
 /// Level of the blocks that a ring looks at, 2^level texels a side.

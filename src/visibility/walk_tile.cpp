@@ -120,6 +120,25 @@ void fill_blocks(HeightWindow& window, const HeightMips& mips, const Surface& su
   }
 }
 
+void lift(const HeightWindow& samples, HeightWindow& lifted) {
+  lifted = samples;
+  const int width = samples.width;
+  std::vector<float> highest(static_cast<std::size_t>(width));  // of three in a column
+  for (int row = 1; row + 1 < samples.height; ++row) {
+    const float* here = samples.values.data() + std::ptrdiff_t{row} * width;
+    float* out = lifted.values.data() + std::ptrdiff_t{row} * width;
+    for (int column = 0; column < width; ++column) {
+      highest[static_cast<std::size_t>(column)] =
+          std::max(here[column], std::max(here[column - width], here[column + width]));
+    }
+    const float* peaks = highest.data();
+    for (int column = 1; column + 1 < width; ++column) {
+      const float peak = std::max(peaks[column], std::max(peaks[column - 1], peaks[column + 1]));
+      out[column] = here[column] + WalkTile::kLift * (peak - here[column]);
+    }
+  }
+}
+
 }  // namespace
 
 TileFrame TileGrid::frame(std::int64_t i) const {
@@ -164,6 +183,7 @@ void WalkTile::load(const Surface& surface, const HeightMips& mips, const WalkOp
   windows.resize(static_cast<std::size_t>(rings) + 1);
   place(windows[0], 0, near_reach(options), row, column);
   fill_nearest(windows[0], mips.level_0(surface), surface.tiles(), reference);
+  lift(windows[0], lifted);
   for (int ring = 1; ring <= rings; ++ring) {
     HeightWindow& window = windows[static_cast<std::size_t>(ring)];
     place(window, ring_level(ring), 2 * options.fineness + 1, row, column);

@@ -22,10 +22,11 @@ struct HeightWindow {
   std::vector<float>
       values;  ///< padded by kReadPadding; heights above the tile's reference; kNoHeight where nothing is
 
-  /// Height of a block that lies in the window.
-  float at(int row, int column) const {
-    return values[static_cast<std::size_t>((row - first_row) * width + column - first_column)];
+  /// Where a block that lies in the window is, and its height.
+  const float* place(int row, int column) const {
+    return values.data() + std::ptrdiff_t{row - first_row} * width + (column - first_column);
   }
+  float at(int row, int column) const { return *place(row, column); }
 };
 
 /// Squares of receivers that look at far things together, and the span of their heights above the tile's
@@ -71,6 +72,7 @@ struct WalkTile : TileFrame {
   static constexpr int kTexels = kSide * kSide;
   static constexpr int kGroup = 4;
   static constexpr int kWideGroup = 8;
+  static constexpr float kLift = 0.2F;
 
   // Per receiver, row-major, kSide per row.
   alignas(64) std::array<float, kTexels> height;  ///< above the tile's reference; −kNoHeight where missing,
@@ -84,6 +86,8 @@ struct WalkTile : TileFrame {
   ReceiverGroups wide_groups;  ///< of kWideGroup a side
 
   std::vector<HeightWindow> windows;  ///< [0] of the samples themselves; [r] of ring r's blocks
+  HeightWindow lifted;  ///< of windows[0]: each sample, and kLift of what the highest of it and its eight
+                        ///< neighbours has above it; not at the window's own edge
 
   /// Copies everything that `rings` rings of walks with these options may read. Reuses its memory.
   void load(const Surface& surface, const HeightMips& mips, const WalkOptions& options, int rings,

@@ -169,12 +169,13 @@ Shortfall plane_shortfall(double steepness, int width, int height, const WalkOpt
 TEST_CASE("the walk finds an open tilted plane open, also below the horizontal", "[visibility][walk]") {
   const double steepness = GENERATE(0.3, 2.5);  // below and above kSteep
   // As far as samples lie on the surface itself: rounding, 10⁻⁷ in slopes and sums.
-  const Shortfall near = plane_shortfall(steepness, 35, 37, {32, 32, 0.3F});
+  const Shortfall near = plane_shortfall(steepness, 35, 37, {32, 48, 0.3F});
   CHECK(near.sky < 1e-6);
   CHECK(near.ambient < 3e-6);
   // Farther away, discretisation: the middle of a block lies up to half a block beside the line of sight in
   // both directions, ν blocks or more away, which is 0.75 steepness/ν in slope (and a little for the sample
-  // that names the block); α goes with it, A with its square.
+  // that names the block); α goes with it, A with its square. Before that, lifted samples stand 0.2 × 1.5
+  // steepness above the plane, 1.5 ν texels or more away: 0.2 steepness/ν.
   for (const int fineness : {8, 16, 32}) {
     const double in_slope = steepness / fineness;
     const Shortfall far = plane_shortfall(steepness, 150, 130, {32, fineness, 0.3F});
