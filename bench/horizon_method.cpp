@@ -23,7 +23,7 @@ float choose_peak_share(const Surface& surface, int fineness) {
   HorizonPilot pilot(surface, kSeed);
   float best = 0;
   double least = std::numeric_limits<double>::infinity();
-  for (const float peak_share : {0.0F, 0.3F, 0.6F}) {
+  for (const float peak_share : {0.0F, 0.15F, 0.3F, 0.45F, 0.6F, 0.75F}) {
     const double error = pilot.sampling_error(fineness, peak_share);
     if (error >= least) continue;
     least = error;

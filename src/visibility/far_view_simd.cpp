@@ -66,9 +66,17 @@ HWY_INLINE void look_at_ring(const WalkTile& tile, const AzimuthTable& azimuth, 
     const float* first = window.values.data() +
                          std::ptrdiff_t{((row + sample.row) >> level) - window.first_row} * window.width +
                          ((start >> level) - window.first_column);
-    const int phase = start & ((1 << level) - 1);
-    const auto order = hn::IndicesFromVec(kD, hn::ShiftRightSame(hn::Add(hn::Set(kI, phase), spread), level));
-    envelopes.see(hn::TableLookupLanes(hn::LoadU(kD, first), order), hn::Set(kD, sample.per_distance));
+    const auto per_distance = hn::Set(kD, sample.per_distance);
+    if (side >> level == 2) {  // every other block
+      hn::Vec<D> heights, between;
+      hn::LoadInterleaved2(kD, first, heights, between);
+      envelopes.see(heights, per_distance);
+    } else {  // as many blocks as groups, or fewer
+      const int phase = start & ((1 << level) - 1);
+      const auto order =
+          hn::IndicesFromVec(kD, hn::ShiftRightSame(hn::Add(hn::Set(kI, phase), spread), level));
+      envelopes.see(hn::TableLookupLanes(hn::LoadU(kD, first), order), per_distance);
+    }
   }
 }
 

@@ -97,7 +97,7 @@ std::vector<NearSample> near_samples(const GridDirection& g, const NearWays& way
 std::vector<RingSample> ring_samples(const GridDirection& g, int fineness, int ring) {
   std::vector<RingSample> samples;
   for (int i = 0; i < fineness; ++i) {
-    const double t = std::ldexp(fineness + i + 0.5, ring_level(ring));
+    const double t = std::ldexp(fineness + i + 0.5, ring + 1);
     samples.push_back({static_cast<float>(t), static_cast<int>(std::lround(t * g.v)),
                        static_cast<int>(std::lround(t * g.u)), static_cast<float>(1 / (t * g.length))});
   }

@@ -19,8 +19,10 @@
 //     Samples miss the peaks between them; this makes up for it in the mean. RMSE in A on brick, fBm and
 //     Ground054 at 1024², ν = 16, all beyond 4ν exact: .00054, .00018, .00069 from 48 samples, where
 //     crossings to 2ν and then every other, none lifted, made .00065, .00022, .00092 from 52.
-//   * Ring r ≥ 1, t from 2ν 2^r to 4ν 2^r: ν samples, 2^(r+1) apart, of the block of level r + 1 that each
-//     falls into.
+//   * Ring r ≥ 1, t from 2ν 2^r to 4ν 2^r: ν samples, 2^(r+1) apart, of the block of level r that each falls
+//     into. Blocks as wide as samples are far apart would leave no gaps, but be twice as far beside the line
+//     of sight: RMSE in A, ν = 16, all up to 4ν exact: .00062 on brick and .00041 on fBm, not .00037 and
+//     .00028.
 //
 // ν is the walk's fineness; its cost grows like ν log(N / ν).
 
@@ -75,7 +77,7 @@ struct AzimuthTable {
 int near_window_width(const WalkOptions& options);
 
 /// Level of the blocks that a ring looks at, 2^level texels a side.
-constexpr int ring_level(int ring) { return ring + 1; }
+constexpr int ring_level(int ring) { return ring; }
 
 /// Texels beside a tile that its near samples reach.
 int near_reach(const WalkOptions& options);

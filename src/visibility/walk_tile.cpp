@@ -186,7 +186,7 @@ void WalkTile::load(const Surface& surface, const HeightMips& mips, const WalkOp
   lift(windows[0], lifted);
   for (int ring = 1; ring <= rings; ++ring) {
     HeightWindow& window = windows[static_cast<std::size_t>(ring)];
-    place(window, ring_level(ring), 2 * options.fineness + 1, row, column);
+    place(window, ring_level(ring), 4 * options.fineness + 1, row, column);
     fill_blocks(window, mips, surface, options.peak_share, reference);
   }
 }
