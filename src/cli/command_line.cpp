@@ -1,5 +1,6 @@
 #include "cli/command_line.h"
 
+#include <atomic>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -18,11 +19,15 @@ int fail(int exit_code, const std::string& message) {
   return exit_code;
 }
 
-/// After a signal that the work at hand did not heed in time.
-void end_late(int signal_number) {
-  fail(0, "interrupted");
-  end_without_staging(128 + signal_number);
+/// Says so once: work may heed a signal just as patience with it ends.
+int end_interrupted(int signal_number) {
+  static std::atomic_flag told;
+  if (!told.test_and_set()) fail(0, "interrupted");
+  return 128 + signal_number;
 }
+
+/// After a signal that the work at hand did not heed in time.
+void end_late(int signal_number) { end_without_staging(end_interrupted(signal_number)); }
 
 // CLI11 tells usage errors from requests for help by the exit code that it would use.
 int finish_parse(const CLI::App& app, const CLI::ParseError& error) {
@@ -52,7 +57,7 @@ int run_command_line(int argument_count, const char* const* arguments) {
   } catch (const CLI::ParseError& error) {
     return finish_parse(app, error);
   } catch (const Interrupted& error) {
-    return fail(128 + error.signal, error.what());
+    return end_interrupted(error.signal);
   } catch (const UsageError& error) {
     return fail(2, error.what());
   } catch (const std::bad_alloc&) {
