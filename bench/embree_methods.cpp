@@ -75,7 +75,7 @@ EmbreeBest find_embree_best(const Surface& surface) {
 std::vector<Method> embree_sky_methods(const Surface& surface, const EmbreeBest& best) {
   return {embree_sky_method(surface, "Embree, cosine density", best.any, RayDensity::cosine),
           embree_sky_method(surface, "Embree, uniform density", best.any, RayDensity::solid_angle),
-          embree_sky_method(surface, "Embree, packets, cosine", best.packets, RayDensity::cosine)};
+          embree_sky_method(surface, "Embree, packets", best.packets, RayDensity::cosine)};
 }
 
 }  // namespace heightlight

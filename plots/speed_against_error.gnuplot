@@ -11,10 +11,10 @@ set datafile columnheaders
 # gnuplot splits quoted fields at commas: they go.
 rows = "< sed 's/, / /' '".table."'"
 array methods[6] = ['Embree cosine density', 'horizon walk fineness 8', 'our rays', 'horizon walk fineness 16', \
-                    'horizon walk planned', 'horizon walk fineness 32']
+                    'horizon walk planned', 'horizon walk fineness 24']
 array titles[6] = ['Embree 3, its best mode', 'horizon walk, fineness 8', 'own rays', \
                    'horizon walk, fineness 16', 'horizon walk, planned for an error', \
-                   'horizon walk, fineness 32']
+                   'horizon walk, fineness 24']
 # Okabe and Ito's colours, which the colour-blind tell apart.
 set linetype 1 linecolor rgb '#000000' pointtype 5 linewidth 1.5 pointsize 0.7
 set linetype 2 linecolor rgb '#56b4e9' pointtype 9 linewidth 1.5 pointsize 0.8
@@ -24,7 +24,7 @@ set linetype 5 linecolor rgb '#d55e00' pointtype 6 linewidth 2.5 pointsize 1.0
 set linetype 6 linecolor rgb '#009e73' pointtype 11 linewidth 1.5 pointsize 0.8
 
 set logscale xy
-set xrange [0.03:300]
+set xrange [0.03:600]
 set yrange [0.0003:0.06]
 set format x '10^{%T}'
 set format y '10^{%T}'

@@ -43,8 +43,7 @@ struct Bunch {
   std::array<VF, kBunch> height, tangent, slope;
 };
 
-/// Twice a slice's irradiance and its solid angle above a horizon; sky_walk.h has the derivation, and q and
-/// ζ.
+/// Twice a slice's irradiance and its solid angle above a horizon; sky_walk.h has the derivation.
 struct Slice {
   VF sky, solid;
 };
