@@ -49,7 +49,7 @@ HWY_INLINE V reciprocal_root(D d, V x) {
 }
 
 /// Of the direction that rises by `slope` for each unit along the ground; what is steeper than 1e18 is taken
-/// as that. All to 2e-7, and level ground exactly.
+/// as that. Sine and cosine to 2e-7, angles to 3e-7, level ground exactly.
 template <class D, class V = hwy::HWY_NAMESPACE::Vec<D>>
 HWY_INLINE Elevation<V> elevation(D d, V slope) {
   namespace hn = hwy::HWY_NAMESPACE;
