@@ -159,7 +159,7 @@ ReadTexture shift(const ReadTexture& texture, int rows, int columns) {
   return shifted;
 }
 
-TEST_CASE("tiles stay tiles to the last bit, dithered too", "[bake]") {
+TEST_CASE("tiles stay tiles to the last bit, dithered too", "[bake][slow]") {
   const ScratchFolder folder;
   const auto [rows, columns] = GENERATE(std::pair{64, 0}, std::pair{64, 128});
   const Heightmap map = make_synth_map("brick", 192, Boundary::tile, 0.1);
@@ -179,7 +179,7 @@ TEST_CASE("tiles stay tiles to the last bit, dithered too", "[bake]") {
 }
 
 TEST_CASE("a coloured albedo's channels are three grey runs, bit for bit, and pits grow more saturated",
-          "[bake]") {
+          "[bake][slow]") {
   const ScratchFolder folder;
   const Heightmap map = make_synth_map("brick", 96, Boundary::tile, 0.15);
   BakeOptions options;
@@ -267,7 +267,7 @@ TEST_CASE("files are the same for any number of threads and from run to run", "[
   }
 }
 
-TEST_CASE("with a reach, ao opens, and bounces stay as they are", "[bake]") {
+TEST_CASE("with a reach, ao opens, and bounces stay as they are", "[bake][slow]") {
   const ScratchFolder folder;
   const Heightmap map = make_synth_map("brick", 64, Boundary::tile, 0.15);
   BakeOptions options;

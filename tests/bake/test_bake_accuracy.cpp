@@ -126,7 +126,7 @@ TEST_CASE("at the bottom of a spherical pit both cones reach the rim", "[bake]")
   CHECK(std::sin(rim) * std::sin(rim) == Approx(sky).margin(0.01));
 }
 
-TEST_CASE("the error that is reported is the error that there is", "[bake]") {
+TEST_CASE("the error that is reported is the error that there is", "[bake][slow]") {
   const Surface surface = build_surface(make_synth_map("brick", 128, Boundary::tile, 0.15));
   const Material material =
       find(surface, {MaterialMap::bent_normal, MaterialMap::multibounce, MaterialMap::ao_n});

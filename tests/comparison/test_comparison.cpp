@@ -108,7 +108,8 @@ struct SmallScene {
         reference(build_reference(surface, {64, albedos})) {}
 };
 
-TEST_CASE("the reference knows its own error, and half the sky sends half of the light", "[comparison]") {
+TEST_CASE("the reference knows its own error, and half the sky sends half of the light",
+          "[comparison][slow]") {
   const SmallScene scene("cobbles");
   CHECK(scene.reference.checked == 256);
   CHECK(scene.reference.sky_rmse < 1e-3);    // discretisation: 64 azimuths

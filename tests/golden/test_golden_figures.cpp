@@ -72,7 +72,7 @@ std::vector<double> measure(const char* shape) {
       rms_error(total, [&](std::size_t i) { return bounced_total(sky(i), guess_seen(sky(i)), kAlbedo); })};
 }
 
-TEST_CASE("errors on the project's own maps are what they were", "[golden]") {
+TEST_CASE("errors on the project's own maps are what they were", "[golden][slow]") {
   const std::vector<GoldenFigure> figures = read_figures();
   std::size_t next = 0;
   for (const char* shape : {"brick", "fbm", "cobbles"}) {

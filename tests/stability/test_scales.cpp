@@ -97,7 +97,8 @@ TEST_CASE("means of sixteen million values lose nothing that shows", "[stability
   CHECK(statistics.stddev == Approx(1e-9).epsilon(1e-4));
 }
 
-TEST_CASE("the form factors of sixty-five thousand rays sum to the rest of the hemisphere", "[stability]") {
+TEST_CASE("the form factors of sixty-five thousand rays sum to the rest of the hemisphere",
+          "[stability][slow]") {
   const Surface surface = build_surface(well(3));
   const FormFactors rays = build_form_factors(surface, {{65536, 1}});
   CHECK(rays.link_count() > 700000);

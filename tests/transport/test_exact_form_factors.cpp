@@ -29,7 +29,7 @@ TEST_CASE("sky + links = 1 in every row of exact slices", "[transport][exact]") 
   CHECK(exact.ray_weights.empty());
 }
 
-TEST_CASE("exact slices give the total that rays give", "[transport][exact]") {
+TEST_CASE("exact slices give the total that rays give", "[transport][exact][slow]") {
   const double relief = GENERATE(0.1, 0.3);
   const Surface surface = build_surface(make_synth_map("brick", 48, Boundary::tile, relief));
   const FormFactors rays = build_form_factors(surface, {{2048, 1}});

@@ -47,7 +47,8 @@ void check_goal(const Goal& goal, Boundary boundary) {
   CHECK(check.total_rmse < 1.5 * goal.error);
 }
 
-TEST_CASE("a plan reaches the error wanted, as exact walks of other receivers find", "[transport][horizon]") {
+TEST_CASE("a plan reaches the error wanted, as exact walks of other receivers find",
+          "[transport][horizon][slow]") {
   const auto [goal, boundary] =
       GENERATE(table<Goal, Boundary>({{{"brick", 128, 0.1, 0.005}, Boundary::tile},
                                       {{"brick", 128, 0.1, 0.002}, Boundary::tile},

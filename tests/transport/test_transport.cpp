@@ -99,7 +99,7 @@ TEST_CASE("exchange is reciprocal: area times form factor is symmetric", "[trans
   CHECK(forth == Approx(back).epsilon(5e-3));  // discretisation: smooth normals stand for facets
 }
 
-TEST_CASE("the spectral radius is the ratio to which bounces settle", "[transport]") {
+TEST_CASE("the spectral radius is the ratio to which bounces settle", "[transport][slow]") {
   const Finder finder = GENERATE(by_rays(256), by_horizon_walks(), by_exact_slices(16));
   CAPTURE(finder.name);
   const Simulated sines = simulate_map(make_synth_map("sines", 32, Boundary::tile, 0.3), finder, 400);
