@@ -36,9 +36,10 @@ float horizon_slope(const WalkTile& tile, const AzimuthTable& azimuth, const Far
   for (std::size_t k = 0; k < azimuth.near.size(); ++k)
     slope = std::max(slope, near_slope(tile, azimuth, k, i, j));
   constexpr int kSide = WalkTile::kGroup;
+  constexpr int kMiddle = kSide / 2;
   const auto group = static_cast<std::size_t>(i / kSide * (WalkTile::kSide / kSide) + j / kSide);
-  const float nearer = static_cast<float>(i % kSide - kSide / 2) * azimuth.along_row +
-                       static_cast<float>(j % kSide - kSide / 2) * azimuth.along_column;
+  const float nearer = static_cast<float>(i % kSide - kMiddle) * azimuth.along_row +
+                       static_cast<float>(j % kSide - kMiddle) * azimuth.along_column;
   for (std::size_t line = 0; line < FarView::kLines; ++line) {
     const float per_d = far.per_distance[line][group];
     slope = std::max(slope, (far.height[line][group] - z) * (per_d + nearer * per_d * per_d));

@@ -174,16 +174,17 @@ class LaneWalk {
   /// The lines that the groups of the bunch keep.
   void look_far(const FarView& far, Bunch& bunch) const {
     constexpr int kSide = WalkTile::kGroup;
+    constexpr int kMiddle = kSide / 2;
     static_assert(kSide == 4);
     const auto order = hn::IndicesFromVec(kF, hn::ShiftRight<2>(hn::Iota(kI, 0)));
     const auto at =
         static_cast<std::size_t>(bunch.row / kSide * (WalkTile::kSide / kSide) + bunch.column / kSide);
     // World distance from the look-out, in the middle of the group, to the receiver, along the azimuth.
     const VF column =
-        hn::ConvertTo(kF, hn::Sub(hn::And(hn::Iota(kI, 0), hn::Set(kI, kSide - 1)), hn::Set(kI, kSide / 2)));
+        hn::ConvertTo(kF, hn::Sub(hn::And(hn::Iota(kI, 0), hn::Set(kI, kSide - 1)), hn::Set(kI, kMiddle)));
     std::array<VF, kBunch> nearer;
     for (std::size_t v = 0; v < kBunch; ++v) {
-      const float row = static_cast<float>(static_cast<int>(v) - kSide / 2);
+      const float row = static_cast<float>(static_cast<int>(v) - kMiddle);
       nearer[v] =
           hn::MulAdd(column, hn::Set(kF, azimuth_.along_column), hn::Set(kF, row * azimuth_.along_row));
     }
