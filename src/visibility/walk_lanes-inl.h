@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 
 #include "core/elevation-inl.h"
 #include "visibility/far_view.h"
@@ -21,7 +22,7 @@ namespace heightlight::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // At most four groups of receivers in a vector.
-using F = hn::CappedTag<float, 4 * WalkTile::kGroup>;
+using F = hn::CappedTag<float, std::size_t{4} * WalkTile::kGroup>;
 using I = hn::RebindToSigned<F>;
 using VF = hn::Vec<F>;
 using VI = hn::Vec<I>;
