@@ -13,16 +13,14 @@
 //
 //   * Up to t = ν/2, at every breakpoint of the profile: the crossings with rows, columns and diagonals.
 //   * Up to t = 3ν/2, at the crossings with the rows or the columns, whichever the azimuth meets more
-//   squarely,
-//     interpolated between the two samples beside them.
+//     squarely, interpolated between the two samples beside them.
 //   * Up to t = 4ν, at every other of these, of heights lifted towards the highest around them (WalkTile).
 //     Samples miss the peaks between them; this makes up for it in the mean. RMSE in A on brick, fBm and
 //     Ground054 at 1024², ν = 16, all beyond 4ν exact: .00054, .00018, .00069 from 48 samples, where
 //     crossings to 2ν and then every other, none lifted, made .00065, .00022, .00092 from 52.
 //   * Ring r ≥ 1, t from 2ν 2^r to 4ν 2^r: ν samples, 2^(r+1) apart, of the block of level r that each falls
-//     into. Blocks as wide as samples are far apart would leave no gaps, but be twice as far beside the line
-//     of sight: RMSE in A, ν = 16, all up to 4ν exact: .00062 on brick and .00041 on fBm, not .00037 and
-//     .00028.
+//     into. Blocks as wide as the samples' distance would leave no gaps, but be twice as far beside the line
+//     of sight: .00062 on brick and .00041 on fBm, all up to 4ν exact, not .00037 and .00028.
 //
 // ν is the walk's fineness; its cost grows like ν log(N / ν).
 
