@@ -10,7 +10,7 @@ namespace {
 int near_way(const WalkOptions& options) { return 2 * options.fineness; }
 int per_octave(const WalkOptions& options) { return options.fineness; }
 
-/// The receiver and the walk's samples up to kNearWay.
+/// The receiver and the walk's samples up to `way`.
 void add_near_nodes(const AzimuthTable& walk, int way, LightTable& table) {
   table.nodes.push_back({});
   for (const NearSample& sample : walk.near) {

@@ -5,13 +5,13 @@
 
 #include "visibility/walk_table.h"
 
-// Where light is read along one azimuth. Horizons need fine samples; the irradiance of what is seen changes
-// more slowly, so that four places an octave of distance stand for all of it:
+// Where light is read along one azimuth: as densely as the walk looks at heights, but as means of ever larger
+// blocks. With ν the walk's fineness:
 //
 //   * node 0: the receiver itself;
-//   * level 0, up to 8 texels of way: the walk's own samples, interpolated between the two of the map beside
+//   * level 0, up to 2ν texels of way: the walk's own samples, interpolated between the two of the map beside
 //   them;
-//   * level λ ≥ 1, ways 4·2^λ to 8·2^λ: four nodes, 2^λ apart, each a block of 2^λ × 2^λ samples.
+//   * level λ ≥ 1, ways ν·2^λ to 2ν·2^λ: ν nodes, 2^λ apart, each a block of 2^λ × 2^λ samples.
 //
 // Like a walk's samples, nodes are the same seen from every vertex: a link is a node's number and a weight,
 // and neighbouring receivers read neighbouring values.
@@ -47,8 +47,5 @@ struct LightTable {
 /// For the walk's table of azimuth k.
 LightTable make_light_table(const Surface& surface, const WalkOptions& options, int k,
                             const AzimuthTable& walk);
-
-/// Largest number of blocks that a node of any level lies away from the receiver.
-constexpr int kNodeReach = 9;
 
 }  // namespace heightlight

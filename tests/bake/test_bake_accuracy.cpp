@@ -112,7 +112,7 @@ TEST_CASE("bent normals and harmonics at the default error against 65536 rays", 
   CHECK(relative < 0.005);
 }
 
-TEST_CASE("at the bottom of a spherical pit both cones reach the rim", "[bake]") {
+TEST_CASE("at the bottom of a spherical pit both cones reach the rim", "[bake][slow]") {
   // The bowl's rim radius is 0.35 of the width, its depth `relief` × width.
   const double relief = GENERATE(0.1, 0.25);
   const Surface surface = build_surface(make_synth_map("bowl", 256, Boundary::open, relief));

@@ -101,7 +101,7 @@ TEST_CASE("rays find what exact slices find, on every hard map", "[stability]") 
   }
 }
 
-TEST_CASE("the check by exact walks knows when walks are too coarse", "[stability]") {
+TEST_CASE("the check by exact walks knows when walks are too coarse", "[stability][slow]") {
   // Peaks that stand a thousand widths high hide behind each other's flanks: samples miss them, and A errs by
   // tenths.
   const double relief = GENERATE(1.0, 1e3);

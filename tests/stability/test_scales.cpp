@@ -84,7 +84,7 @@ TEST_CASE("an infinite trench is right at any depth that azimuths resolve", "[st
   CHECK(view.sky_view_factor == Approx(expected).epsilon(1e-9));
 }
 
-TEST_CASE("means of sixteen million values lose nothing that shows", "[stability]") {
+TEST_CASE("means of sixteen million values lose nothing that shows", "[stability][slow]") {
   constexpr Eigen::Index kCount = Eigen::Index{1} << 24;
   // 1 + tiny, alternating: a naive single-precision sum would stand still.
   Map ao(1 << 12, 1 << 12, 0.5F);
