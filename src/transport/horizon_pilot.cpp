@@ -93,6 +93,17 @@ std::vector<float> HorizonPilot::walk_sky_of(const WalkOptions& options) {
   return result;
 }
 
+double HorizonPilot::total_seen(double albedo) const {
+  double seen = 0;
+  double total = 0;
+  for (const ExactReceiver& receiver : exact_) {
+    const double sky = receiver.view.sky_view_factor;
+    seen += 1 - sky;
+    if (sky > 0) total += (1 - sky) * sky / (1 - albedo * (1 - sky));
+  }
+  return seen > 0 ? total / seen : 1;
+}
+
 double HorizonPilot::sampling_error(int fineness, float peak_share) {
   const std::vector<float> walked = walk_sky_of({kExactAzimuths, fineness, peak_share});
   double squares = 0;

@@ -20,20 +20,19 @@ struct LinkWalker {
 
   float mass(float m, float q) const { return c * (std::atan(m) + m * q) - n_z * q; }
 
+  float cosine_to_normal(float m, float along) const { return std::max(c * along + n_z * m * along, 0.0F); }
+
   /// Mean place of a visible stretch, as a share of it; slice_integrals.h has the derivation (mean_share),
-  /// here with two nodes. (c cosθ + n_z sinθ) at both ends are the cosines to the normal.
+  /// here with two nodes. They lie equally far from the middle of the chord between both directions, so that
+  /// the squares of their lengths are the same, and cancel.
   float mean_share(float to_slope, float to_cosine, float from_way, float to_way) const {
-    const float from_sine = slope * cosine;
-    const float to_sine = to_slope * to_cosine;
-    const float from_normal = std::max(c * cosine + n_z * from_sine, 0.0F);
-    const float to_normal = std::max(c * to_cosine + n_z * to_sine, 0.0F);
+    const float from_normal = cosine_to_normal(slope, cosine);
+    const float to_normal = cosine_to_normal(to_slope, to_cosine);
     float weights = 0;
     float weighted = 0;
     for (const float t : kNodes) {
       const float along = cosine + t * (to_cosine - cosine);
-      const float up = from_sine + t * (to_sine - from_sine);
-      const float squared = along * along + up * up;
-      const float weight = (from_normal + t * (to_normal - from_normal)) * along / (squared * squared);
+      const float weight = (from_normal + t * (to_normal - from_normal)) * along;
       const float near = t * from_way * to_cosine;
       weights += weight;
       weighted += weight * near / (near + (1 - t) * to_way * cosine);
@@ -117,7 +116,8 @@ void walk_links_scalar(const WalkTile& tile, const std::vector<LinkAzimuth>& azi
   std::vector<NodeWeights> weights(kBlock);
   for (int row = 0; row < tile.rows; ++row) {
     for (int column = 0; column < tile.columns; column += kBlock) {
-      std::array<float, kBlock> carry{};
+      std::array<float, kBlock> sum{};    // of weights so far, in steps
+      std::array<float, kBlock> given{};  // whole steps
       for (const LinkAzimuth& azimuth : azimuths) {
         for (int lane = 0; lane < kBlock; ++lane) {
           weights[static_cast<std::size_t>(lane)].fill(0);
@@ -129,10 +129,10 @@ void walk_links_scalar(const WalkTile& tile, const std::vector<LinkAzimuth>& azi
           std::array<std::uint8_t, kEntryBytes> entry{static_cast<std::uint8_t>(node)};
           bool any = false;
           for (std::size_t lane = 0; lane < kBlock; ++lane) {
-            const float weight = weights[lane][node] * kQuantum + carry[lane];
-            const float steps = std::clamp(std::nearbyint(weight), 0.0F, 255.0F);
-            carry[lane] = weight - steps;
-            entry[1 + lane] = static_cast<std::uint8_t>(steps);
+            sum[lane] += weights[lane][node] * kQuantum;
+            const float steps = std::max(std::nearbyint(sum[lane]) - given[lane], 0.0F);
+            given[lane] += steps;
+            entry[1 + lane] = static_cast<std::uint8_t>(std::min(steps, 255.0F));
             any = any || steps > 0;
           }
           if (!any) continue;

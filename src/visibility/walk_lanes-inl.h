@@ -214,7 +214,7 @@ class LaneWalk {
   template <class See>
   HWY_INLINE void for_near_of(const Bunch& bunch, const HeightWindow& window, std::size_t first,
                               std::size_t end, See& see) const {
-    const float* here = window.place(tile_.first_row + bunch.row, tile_.first_column + bunch.column);
+    const float* here = window.address(tile_.first_row + bunch.row, tile_.first_column + bunch.column);
     for (std::size_t k = first; k < end; ++k) {
       const NearSample& sample = azimuth_.near[k];
       const float* from = here + sample.offset[0];

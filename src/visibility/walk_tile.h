@@ -22,11 +22,11 @@ struct HeightWindow {
   std::vector<float>
       values;  ///< padded by kReadPadding; heights above the tile's reference; kNoHeight where nothing is
 
-  /// Where a block that lies in the window is, and its height.
-  const float* place(int row, int column) const {
+  /// Of a block that lies in the window: its address, and its height.
+  const float* address(int row, int column) const {
     return values.data() + std::ptrdiff_t{row - first_row} * width + (column - first_column);
   }
-  float at(int row, int column) const { return *place(row, column); }
+  float at(int row, int column) const { return *address(row, column); }
 };
 
 /// Squares of receivers that look at far things together, and the span of their heights above the tile's

@@ -107,7 +107,7 @@ TEST_CASE("every real map simulates, with its energy in balance", "[cli][slow]")
       std::pair{"terrain/SRTMGL3_boulder.asc", "--texel 70.8x92.6"},
       std::pair{"terrain/DSM_PHR_Dunkerque.tif", "--texel 0.5 --boundary open"},
       std::pair{"terrain/hugo_site_filled.asc", "--no-data -9999"});
-  const std::string method = GENERATE("", " --rays 48");
+  const std::string method = GENERATE("", " --rays 16 --bounces 5");
   const auto path = find_shared_data(name);
   if (!path) return;
   const ScratchFolder folder;
