@@ -126,10 +126,9 @@ const std::vector<MaterialMapName>& material_maps() {
 const char* to_string(MaterialMap map) { return material_maps()[static_cast<std::size_t>(map)].name; }
 
 std::vector<std::string> baked_files(const std::string& name, const BakeOptions& options) {
-  std::vector<std::string> files;
-  for (const std::string& suffix : texture_suffixes(options)) {
-    files.push_back(name + "_" + suffix + extension_of(options.format));
-  }
+  std::vector<std::string> files = texture_suffixes(options);
+  const std::string stem = name + "_";
+  for (std::string& file : files) file.insert(0, stem).append(extension_of(options.format));
   if (is_wanted(options, MaterialMap::ao_n)) {
     files.push_back("ao-n.glsl");
     files.push_back("ao-n.hlsl");

@@ -269,8 +269,7 @@ std::vector<BakedTexture> baked_textures(const Material& material, const BakeOpt
     }
     packed.channels.push_back(
         baked_channels(*channel.map, material, options)[static_cast<std::size_t>(channel.component)]);
-    std::string& quantity = packed.channels.back().quantity;
-    quantity = std::string(to_string(*channel.map)) + ": " + quantity;
+    packed.channels.back().quantity.insert(0, std::string(to_string(*channel.map)) + ": ");
   }
   textures.push_back(std::move(packed));
   return textures;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <memory>
 
@@ -35,9 +36,9 @@ std::vector<ComparedAlbedo> compared_albedos(const Albedo& albedo, const Surface
     albedos.push_back(
         {label, TexelVector::Constant(static_cast<Eigen::Index>(surface.map.height.size()), constant), {}});
   }
-  static constexpr const char* kChannel[] = {"R", "G", "B"};
+  constexpr std::array<const char*, 3> kChannels{"R", "G", "B"};
   for (std::size_t c = 0; c < albedo.varying.size(); ++c) {
-    albedos.push_back({albedo.varying.size() == 1 ? "map" : kChannel[c], albedo.varying[c],
+    albedos.push_back({albedo.varying.size() == 1 ? "map" : kChannels.at(c), albedo.varying[c],
                        to_map(albedo.varying[c], surface)});
   }
   return albedos;

@@ -46,7 +46,7 @@ void append_curves(const DatasetRun& run, const std::string& cells, std::FILE* t
   std::string line;
   if (!std::getline(curves, line) || line != kCurvesHeader) throw file_error(path, "holds no curves");
   while (std::getline(curves, line)) {
-    line = cells + line + '\n';
+    line.insert(0, cells).append("\n");
     std::fwrite(line.data(), 1, line.size(), table);
   }
   if (!curves.eof()) throw file_error(path, "cannot be read to its end");

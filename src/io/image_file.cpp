@@ -116,7 +116,7 @@ OIIO::TypeDesc stored_type(SampleType type) {
 }
 
 template <class Level>
-bool write_levels(OIIO::ImageOutput& output, int first, int last, OIIO::TypeDesc type,
+bool write_levels(OIIO::ImageOutput& output, int first, int last, const OIIO::TypeDesc& type,
                   const std::vector<float>& samples) {
   std::vector<Level> levels(samples.size());
   std::transform(samples.begin(), samples.end(), levels.begin(),

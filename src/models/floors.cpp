@@ -10,8 +10,8 @@
 namespace heightlight {
 namespace {
 
-constexpr int kFine = 256;
-constexpr int kSide = 128;
+constexpr std::size_t kFine = 256;
+constexpr std::size_t kSide = 128;
 
 struct Cell {
   double texels = 0;
@@ -34,9 +34,8 @@ double trend_of_sky(const TexelSample& texels, std::size_t i, double albedo) {
   return bounced_total(sky, guess_seen(sky), albedo);
 }
 
-std::size_t place(float share, int cells) {
-  return static_cast<std::size_t>(
-      std::min(cells - 1, static_cast<int>(clamp_share(share) * static_cast<float>(cells))));
+std::size_t place(float share, std::size_t cells) {
+  return std::min(cells - 1, static_cast<std::size_t>(clamp_share(share) * static_cast<float>(cells)));
 }
 
 /// Spread of the totals inside cells, which Bessel's correction frees of the cells' own means.

@@ -36,8 +36,8 @@ void relax(Points& points) {
   Points sums(points.size(), Eigen::Vector3d::Zero());
   std::vector<int> counts(points.size());
   for (int cell = 0; cell < kGrid * kGrid * kGrid; ++cell) {
-    const Eigen::Vector3d place((cell % kGrid + 0.5) / kGrid, (cell / kGrid % kGrid + 0.5) / kGrid,
-                                (cell / (kGrid * kGrid) + 0.5) / kGrid);
+    const Eigen::Vector3i along(cell % kGrid, cell / kGrid % kGrid, cell / (kGrid * kGrid));
+    const Eigen::Vector3d place = (along.cast<double>().array() + 0.5) / kGrid;
     std::size_t nearest = 0;
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < points.size(); ++i) {

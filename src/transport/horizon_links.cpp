@@ -61,10 +61,10 @@ void HorizonLinks::mean_seen(const TexelVector& x, Image<float>& mean) {
       walk_links(work->tile, azimuths_, work->stream);
       stream = &work->stream;
     }
-    std::array<float, TileFrame::kSide * TileFrame::kSide> seen;
+    std::array<float, WalkTile::kTexels> seen;
     replay_links(frame, azimuths_, stream->data(), light_, seen.data());
     for (int row = 0; row < frame.rows; ++row) {
-      std::copy_n(seen.data() + row * TileFrame::kSide, frame.columns,
+      std::copy_n(seen.data() + std::ptrdiff_t{row} * TileFrame::kSide, frame.columns,
                   &mean(frame.first_row + row, frame.first_column));
     }
   });

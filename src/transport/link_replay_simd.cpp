@@ -99,7 +99,7 @@ void replay_links_lanes(const TileFrame& tile, const std::vector<LinkAzimuth>& a
         const VF seen = hn::Div(sums.sum[v], hn::Max(sums.weight[v], hn::Set(kF, 1.0F)));
         const auto blind = hn::Eq(sums.weight[v], hn::Zero(kF));
         hn::StoreU(hn::IfThenElse(blind, hn::LoadU(kF, here + lane), seen), kF,
-                   mean + i * TileFrame::kSide + j + lane);
+                   mean + std::ptrdiff_t{i} * TileFrame::kSide + j + lane);
       }
     }
   }

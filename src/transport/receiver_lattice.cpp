@@ -63,7 +63,7 @@ void spread_lattice(const Surface& surface, const ReceiverLattice& lattice, cons
       const float step = (between_rows(next(column, lattice.width)) - left) / static_cast<float>(stride);
       const int inside = std::min(stride, surface.width() - column * stride);
       for (int k = 0; k < inside; ++k) {
-        const std::int64_t texel = start + column * stride + k;
+        const std::int64_t texel = start + std::int64_t{column} * stride + k;
         result[texel] = (1 - sky[texel]) * static_cast<double>(left + static_cast<float>(k) * step);
       }
     }

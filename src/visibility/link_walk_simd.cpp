@@ -261,9 +261,9 @@ void append_entries(const LinkAzimuth& azimuth, BlockWeights& weights, StepCount
       any = hn::Or(any, steps);
     }
     out[0] = static_cast<std::uint8_t>(node);
-    const int has_any = hn::AllTrue(kI, hn::Eq(any, hn::Zero(kI))) ? 0 : 1;
-    out += has_any * kEntryBytes;
-    entries[static_cast<int>(node) < azimuth.light.near_nodes ? 0 : 1] += static_cast<std::uint8_t>(has_any);
+    const bool has_any = !hn::AllTrue(kI, hn::Eq(any, hn::Zero(kI)));
+    out += has_any ? kEntryBytes : 0;
+    entries[static_cast<int>(node) < azimuth.light.near_nodes ? 0 : 1] += has_any ? 1 : 0;
   }
   count = so_far;
   stream.insert(stream.end(), entries, out);
