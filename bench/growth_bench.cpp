@@ -35,7 +35,7 @@ constexpr double kAlbedo = 0.8;
 constexpr WalkOptions kFixedWalk{32, 16, 0.3F};
 
 /// Of everything beside the links, as they are made and the bounces are summed; measured, and rounded up.
-constexpr std::uint64_t kOtherBytesPerTexel = 90;
+constexpr std::uint64_t kOtherBytesPerTexel = 76;
 
 /// What became of one map. Plain, so that it can go through a pipe.
 struct Growth {

@@ -17,8 +17,8 @@ set linetype 2 linecolor rgb '#0072b2' pointtype 5 linewidth 2 pointsize 0.9
 only(m, x) = strcol('map') eq maps[m] ? column(x) : NaN
 
 set logscale x 2
-set xrange [200:10000]
-set xtics ('256²' 256, '512²' 512, '1024²' 1024, '2048²' 2048, '4096²' 4096, '8192²' 8192)
+set xrange [200:20000]
+set xtics ('256²' 256, '512²' 512, '1024²' 1024, '2048²' 2048, '4096²' 4096, '8192²' 8192, '16384²' 16384)
 set grid xtics ytics linecolor rgb '#dddddd' linewidth 0.7 linetype 1
 set border 3
 set tics nomirror out
@@ -30,7 +30,7 @@ set multiplot layout 2,2 margins 0.08, 0.98, 0.08, 0.9 spacing 0.1, 0.15 \
 
 set title 'Sky by a fixed walk: 32 azimuths, fineness 16'
 set ylabel 'core-ns per texel and azimuth'
-set yrange [0:15]
+set yrange [0:18]
 set key bottom left
 plot for [m = 1:2] table using (only(m, 'size')):(column('fixed_walk_core_ns')) with linespoints linetype m \
   title names[m]
