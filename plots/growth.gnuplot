@@ -38,7 +38,7 @@ plot for [m = 1:2] table using (only(m, 'size')):(column('fixed_walk_core_ns')) 
 set title 'Sky and total of all bounces, planned for an error of 0.002'
 set ylabel 'core-seconds'
 set logscale y
-set yrange [0.05:1000]
+set yrange [0.05:2000]
 set format y '%g'
 set key top left
 plot 2e-6 * x**2 with lines linecolor rgb '#777777' dashtype 3 title 'in proportion to the texels', for [m = 1:2] table using (only(m, 'size')):(column('core_s')) with linespoints linetype m title names[m]

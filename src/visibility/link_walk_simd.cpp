@@ -67,7 +67,7 @@ struct Sightings {
   float* slope(std::size_t sample) const { return slopes.get() + sample * hn::Lanes(kF); }
 };
 
-/// One vector of receivers, and how it finds its sightings.
+/// One vector of receivers: how it finds its sightings, and what weight they have.
 class LinkLanes {
  public:
   LinkLanes(const WalkTile& tile, const LinkAzimuth& azimuth, const SampleList& samples, int row, int column)
