@@ -34,9 +34,7 @@ constexpr double kHopeless = 1.3;
 constexpr float kPeakShareStep = 0.15F;
 constexpr float kHighestPeakShare = 0.75F;
 
-/// Cost of a walk's azimuth by its fineness, in units of ν: measured 4.3, 5.4, 7.1, 9.1 and 11.5 ns for ν of
-/// 8, 12, 16, 24 and 32.
-double azimuth_cost(int fineness) { return 5 + fineness; }
+double azimuth_cost(int fineness) { return walk_cost({1, fineness}); }
 
 /// The walk that should reach the error at the least cost, as far as its sampling goes: what that leaves of
 /// the error, azimuths must fill. Where no sampling is good enough, the best.
@@ -137,14 +135,17 @@ WalkOptions choose_links(HorizonPilot& pilot, const LightMips& light, const Texe
 
 }  // namespace
 
+double walk_cost(const WalkOptions& options) { return options.azimuths * (5.0 + options.fineness); }
+
 HorizonPlan plan_sky(HorizonPilot& pilot, const HorizonGoal& goal) {
   HorizonPlan plan;
   if (goal.azimuths > 0) plan.sky.azimuths = goal.azimuths;
   if (pilot.empty()) return plan;
   // A receiver that sees less of the sky sees more of the surface: its total changes by 1 − ρ × (the mean of
-  // the total seen) of what A does.
-  const double error = kAim * goal.error * goal.sky_share *
-                       (goal.total_only ? kSkyShare / (1 - kAlbedo * pilot.total_seen(kAlbedo)) : 1);
+  // the total seen) of what A does. The total needs no better sky than A itself would.
+  const double error =
+      kAim * goal.error * goal.sky_share *
+      (goal.total_only ? std::max(1.0, kSkyShare / (1 - kAlbedo * pilot.total_seen(kAlbedo))) : 1);
   double sampling = 0;
   double few = 0;
   plan.sky = choose_sampling(pilot, error, goal.azimuths, sampling);
