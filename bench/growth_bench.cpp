@@ -46,7 +46,8 @@ struct Growth {
   Cost totals;  ///< bounces and tail
   int sky_azimuths = 0;
   int sky_fineness = 0;
-  int link_stride = 0;
+  int lattice_stride = 0;
+  double own_share = 0;
   int link_azimuths = 0;
   int link_fineness = 0;
   int bounces = 0;
@@ -91,11 +92,12 @@ class WalkedTransport : public Transport {
     growth.links = link_watch.elapsed();
     growth.sky_azimuths = plan.sky.azimuths;
     growth.sky_fineness = plan.sky.fineness;
-    growth.link_stride = plan.link_stride;
+    growth.lattice_stride = plan.lattice_stride;
+    growth.own_share = plan.own_share;
     growth.link_azimuths = plan.links.azimuths;
     growth.link_fineness = plan.links.fineness;
     growth.link_bytes = static_cast<double>(bytes());
-    growth.kept_share = light_->links().kept_share();
+    growth.kept_share = light_->kept_share();
   }
 
   TexelVector gather(const TexelVector& x) const override {
@@ -104,8 +106,8 @@ class WalkedTransport : public Transport {
     return result;
   }
   double solver_tolerance() const override { return 1e-6; }
-  std::uint64_t link_count() const override { return light_->links().entries() * kBlock; }
-  std::uint64_t bytes() const override { return light_->links().bytes(); }
+  std::uint64_t link_count() const override { return light_->link_count(); }
+  std::uint64_t bytes() const override { return light_->bytes(); }
 
  private:
   HeightMips mips_;
@@ -186,7 +188,7 @@ void print_head(const Options& options) {
 void print_row(const std::string& map, int size, const Growth& g) {
   const double texels = static_cast<double>(size) * size;
   const std::string sky = std::to_string(g.sky_azimuths) + "/" + std::to_string(g.sky_fineness);
-  const std::string links = std::to_string(g.link_stride) + "," + std::to_string(g.link_azimuths) + "/" +
+  const std::string links = std::to_string(g.lattice_stride) + "," + std::to_string(g.link_azimuths) + "/" +
                             std::to_string(g.link_fineness);
   const Cost all = g.all();
   std::printf(
@@ -206,8 +208,8 @@ void write_row(std::ostream& file, const std::string& map, int size, const Growt
        << g.pilot.core << ',' << g.sky.core << ',' << g.links.core << ',' << g.totals.core << ',' << all.core
        << ',' << all.wall << ',' << all.others << ',' << g.peak_bytes << ',' << g.peak_bytes / texels << ','
        << g.link_bytes / texels << ',' << g.kept_share << ',' << g.sky_azimuths << ',' << g.sky_fineness
-       << ',' << g.link_stride << ',' << g.link_azimuths << ',' << g.link_fineness << ',' << g.bounces << ','
-       << g.check.sky_rmse << ',' << g.check.total_rmse << '\n';
+       << ',' << g.lattice_stride << ',' << g.link_azimuths << ',' << g.link_fineness << ',' << g.bounces
+       << ',' << g.check.sky_rmse << ',' << g.check.total_rmse << ',' << g.own_share << '\n';
 }
 
 void run(const Options& options) {
@@ -216,7 +218,7 @@ void run(const Options& options) {
     file.open(options.csv);
     file << "map,size,fixed_walk_core_ns,pilot_core_s,sky_core_s,links_core_s,totals_core_s,core_s,wall_s,"
             "others_core_s,peak_bytes,bytes_per_texel,link_bytes_per_texel,kept_share,sky_azimuths,"
-            "sky_fineness,link_stride,link_azimuths,link_fineness,bounces,rmse_sky,rmse_total\n";
+            "sky_fineness,link_stride,link_azimuths,link_fineness,bounces,rmse_sky,rmse_total,own_share\n";
   }
   print_head(options);
   for (const std::string& map : options.maps) {

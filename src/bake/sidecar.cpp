@@ -102,9 +102,13 @@ Json describe_visibility(const BakeOptions& options, const Material& material) {
   json["peak_share"] = plan.sky.peak_share;
   json["expected_rmse"] = {{"sky_view_factor", plan.sky_error}};
   if (!material.has_links) return json;
-  json["links"] = {{"azimuths", plan.links.azimuths}, {"fineness", plan.links.fineness},
-                   {"stride", plan.link_stride},      {"count", material.links},
-                   {"bytes", material.link_bytes},    {"expected_rmse_of_total", plan.link_error}};
+  json["links"] = {{"azimuths", plan.links.azimuths},
+                   {"fineness", plan.links.fineness},
+                   {"stride", plan.lattice_stride},
+                   {"own_share", plan.own_share},
+                   {"count", material.links},
+                   {"bytes", material.link_bytes},
+                   {"expected_rmse_of_total", plan.link_error}};
   return json;
 }
 

@@ -38,8 +38,10 @@ void add_plan(const HorizonPlan& plan, Json& visibility) {
   visibility["azimuths"] = plan.sky.azimuths;
   visibility["fineness"] = plan.sky.fineness;
   visibility["peak_share"] = plan.sky.peak_share;
-  visibility["links"] = {
-      {"azimuths", plan.links.azimuths}, {"fineness", plan.links.fineness}, {"stride", plan.link_stride}};
+  visibility["links"] = {{"azimuths", plan.links.azimuths},
+                         {"fineness", plan.links.fineness},
+                         {"stride", plan.lattice_stride},
+                         {"own_share", plan.own_share}};
   visibility["expected_rmse"] = {{"sky_view_factor", plan.sky_error}, {"total_from_links", plan.link_error}};
 }
 

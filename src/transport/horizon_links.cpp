@@ -20,13 +20,14 @@ struct Workspace {
 }  // namespace
 
 HorizonLinks::HorizonLinks(const Surface& surface, const HeightMips& mips, const WalkOptions& options,
-                           std::uint64_t memory, bool quiet)
+                           std::vector<BlockSet> blocks, std::uint64_t memory, bool quiet)
     : surface_(surface),
       mips_(mips),
       options_(options),
       azimuths_(make_link_azimuths(surface, options)),
       rings_(ring_count(surface, options)),
       tiles_(surface.width(), surface.height()),
+      blocks_(std::move(blocks)),
       light_(surface),
       streams_(static_cast<std::size_t>(tiles_.count())) {
   std::vector<std::unique_ptr<Workspace>> workspaces(static_cast<std::size_t>(thread_count()));
@@ -35,12 +36,13 @@ HorizonLinks::HorizonLinks(const Surface& surface, const HeightMips& mips, const
   parallel_for(
       tiles_.count(),
       [&](std::int64_t i) {
-        if (taken.load(std::memory_order_relaxed) >= memory) return;
+        const BlockSet& wanted = blocks_[static_cast<std::size_t>(i)];
+        if (wanted.none() || taken.load(std::memory_order_relaxed) >= memory) return;
         std::unique_ptr<Workspace>& work = workspaces[static_cast<std::size_t>(omp_get_thread_num())];
         if (!work) work = std::make_unique<Workspace>();
         work->tile.load(surface_, mips_, options_, rings_, tiles_.frame(i));
         work->stream.clear();
-        walk_links(work->tile, azimuths_, work->stream);
+        walk_links(work->tile, azimuths_, wanted, work->stream);
         const std::uint64_t size = work->stream.size();
         if (taken.fetch_add(size) + size <= memory) streams_[static_cast<std::size_t>(i)] = work->stream;
       },
@@ -51,6 +53,8 @@ void HorizonLinks::mean_seen(const TexelVector& x, Image<float>& mean) {
   light_.fill(x);
   std::vector<std::unique_ptr<Workspace>> workspaces(static_cast<std::size_t>(thread_count()));
   parallel_for(tiles_.count(), [&](std::int64_t i) {
+    const BlockSet& wanted = blocks_[static_cast<std::size_t>(i)];
+    if (wanted.none()) return;
     const TileFrame frame = tiles_.frame(i);
     const std::vector<std::uint8_t>* stream = &streams_[static_cast<std::size_t>(i)];
     if (stream->empty()) {
@@ -58,14 +62,18 @@ void HorizonLinks::mean_seen(const TexelVector& x, Image<float>& mean) {
       if (!work) work = std::make_unique<Workspace>();
       work->tile.load(surface_, mips_, options_, rings_, frame);
       work->stream.clear();
-      walk_links(work->tile, azimuths_, work->stream);
+      walk_links(work->tile, azimuths_, wanted, work->stream);
       stream = &work->stream;
     }
     std::array<float, WalkTile::kTexels> seen;
-    replay_links(frame, azimuths_, stream->data(), light_, seen.data());
+    replay_links(frame, azimuths_, wanted, stream->data(), light_, seen.data());
     for (int row = 0; row < frame.rows; ++row) {
-      std::copy_n(seen.data() + std::ptrdiff_t{row} * TileFrame::kSide, frame.columns,
-                  &mean(frame.first_row + row, frame.first_column));
+      for (int column = 0; column < frame.columns; column += kBlock) {
+        if (!wanted[block_index(row, column)]) continue;
+        std::copy_n(seen.data() + std::ptrdiff_t{row} * TileFrame::kSide + column,
+                    std::min(kBlock, frame.columns - column),
+                    &mean(frame.first_row + row, frame.first_column + column));
+      }
     }
   });
 }
@@ -75,9 +83,7 @@ std::uint64_t HorizonLinks::entries() const {
   for (std::int64_t i = 0; i < tiles_.count(); ++i) {
     const std::vector<std::uint8_t>& stream = streams_[static_cast<std::size_t>(i)];
     if (stream.empty()) continue;
-    const TileFrame frame = tiles_.frame(i);
-    const int blocks = frame.rows * ((frame.columns + kBlock - 1) / kBlock);
-    bytes += stream.size() - static_cast<std::size_t>(blocks) * azimuths_.size() * kCountBytes;
+    bytes += stream.size() - blocks_[static_cast<std::size_t>(i)].count() * azimuths_.size() * kCountBytes;
   }
   return bytes / kEntryBytes;
 }
@@ -91,7 +97,9 @@ std::uint64_t HorizonLinks::bytes() const {
 double HorizonLinks::kept_share() const {
   const auto kept = std::count_if(streams_.begin(), streams_.end(),
                                   [](const std::vector<std::uint8_t>& stream) { return !stream.empty(); });
-  return static_cast<double>(kept) / static_cast<double>(streams_.size());
+  const auto wanted =
+      std::count_if(blocks_.begin(), blocks_.end(), [](const BlockSet& blocks) { return blocks.any(); });
+  return wanted > 0 ? static_cast<double>(kept) / static_cast<double>(wanted) : 1;
 }
 
 }  // namespace heightlight

@@ -9,22 +9,23 @@
 
 namespace heightlight {
 
-/// The links of all receivers, found by horizon walks. Tiles whose links fit the memory keep them; the others
+/// Links of a map's receivers, found by horizon walks. Tiles whose links fit the memory keep them; the others
 /// walk again whenever they are asked.
 class HorizonLinks {
  public:
-  /// `memory` is the most that links may take, bytes. `surface` and `mips` must outlive it.
+  /// `blocks`, tile by tile, are those whose receivers have links. `memory` is the most that links may take,
+  /// bytes. `surface` and `mips` must outlive it.
   HorizonLinks(const Surface& surface, const HeightMips& mips, const WalkOptions& options,
-               std::uint64_t memory, bool quiet);
+               std::vector<BlockSet> blocks, std::uint64_t memory, bool quiet);
 
-  /// For every receiver, the mean of `x` over what it sees of the surface, weighted by form factors; its own
-  /// x where it sees nothing. Both per texel, `x` finite everywhere; what stands in `mean` at missing samples
-  /// means nothing.
+  /// For every receiver with links, the mean of `x` over what it sees of the surface, weighted by form
+  /// factors; its own x where it sees nothing. Both per texel, `x` finite everywhere; `mean` stays as it is
+  /// elsewhere, but for missing samples beside such receivers, where it means nothing.
   void mean_seen(const TexelVector& x, Image<float>& mean);
 
   std::uint64_t entries() const;
   std::uint64_t bytes() const;
-  /// Share of the tiles that keep their links.
+  /// Share of the tiles with links that keep them.
   double kept_share() const;
 
  private:
@@ -34,8 +35,9 @@ class HorizonLinks {
   std::vector<LinkAzimuth> azimuths_;
   int rings_;
   TileGrid tiles_;
+  std::vector<BlockSet> blocks_;  ///< per tile
   LightMips light_;
-  std::vector<std::vector<std::uint8_t>> streams_;  ///< per tile; empty where it walks again
+  std::vector<std::vector<std::uint8_t>> streams_;  ///< per tile; empty where it has none, or walks again
 };
 
 }  // namespace heightlight

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
+#include <utility>
 
 #include "core/hash.h"
 #include "core/parallel.h"
 #include "transport/exact_gather.h"
 #include "transport/link_replay.h"
+#include "transport/receiver_blocks.h"
 #include "visibility/sky_walk.h"
 
 namespace heightlight {
@@ -39,6 +42,12 @@ double root_mean(double squares, std::size_t count) {
 }
 
 }  // namespace
+
+double root_mean_square(const std::vector<double>& errors) {
+  double squares = 0;
+  for (const double error : errors) squares += error * error;
+  return root_mean(squares, errors.size());
+}
 
 HorizonPilot::HorizonPilot(const Surface& surface, std::uint64_t seed)
     : surface_(surface), mips_(build_height_mips(surface)) {
@@ -140,26 +149,27 @@ double HorizonPilot::link_error(const WalkOptions& options, const LightMips& lig
   const int rings = ring_count(surface_, options);
   std::vector<float> seen(frames_.size() * WalkTile::kTexels);
   parallel_for(static_cast<std::int64_t>(frames_.size()), [&](std::int64_t i) {
+    const TileFrame& frame = frames_[static_cast<std::size_t>(i)];
+    const BlockSet blocks = all_blocks(frame);
     const auto tile = std::make_unique<WalkTile>();
     std::vector<std::uint8_t> stream;
-    tile->load(surface_, mips_, options, rings, frames_[static_cast<std::size_t>(i)]);
-    walk_links(*tile, azimuths, stream);
-    replay_links(*tile, azimuths, stream.data(), light, seen.data() + i * WalkTile::kTexels);
+    tile->load(surface_, mips_, options, rings, frame);
+    walk_links(*tile, azimuths, blocks, stream);
+    replay_links(frame, azimuths, blocks, stream.data(), light, seen.data() + i * WalkTile::kTexels);
   });
-  double squares = 0;
+  std::vector<double> errors;
   for (const ExactReceiver& receiver : exact_) {
     const std::size_t at = receiver.frame * WalkTile::kTexels +
                            static_cast<std::size_t>(receiver.row * TileFrame::kSide + receiver.column);
     const double surface_share = 1 - receiver.view.sky_view_factor;
-    const double error = surface_share * double{seen[at]} - gather_exactly(receiver.view, x, surface_);
-    squares += error * error;
+    errors.push_back(surface_share * double{seen[at]} - gather_exactly(receiver.view, x, surface_));
   }
-  return root_mean(squares, exact_.size());
+  return root_mean_square(errors);
 }
 
-double HorizonPilot::gather_error(const TexelVector& x, const TexelVector& gathered,
-                                  const TexelVector& sky) const {
-  double squares = 0;
+std::vector<double> HorizonPilot::gather_errors(const TexelVector& x, const TexelVector& gathered,
+                                                const TexelVector& sky) const {
+  std::vector<double> errors;
   for (const ExactReceiver& receiver : exact_) {
     const TileFrame& frame = frames_[receiver.frame];
     const std::int64_t texel = std::int64_t{frame.first_row + receiver.row} * surface_.width() +
@@ -167,10 +177,28 @@ double HorizonPilot::gather_error(const TexelVector& x, const TexelVector& gathe
     const double exact_share = 1 - receiver.view.sky_view_factor;
     const double share = 1 - sky[texel];
     const double seen = share > 0 ? gathered[texel] / share : 0;
-    const double error = exact_share * seen - gather_exactly(receiver.view, x, surface_);
-    squares += error * error;
+    errors.push_back(exact_share * seen - gather_exactly(receiver.view, x, surface_));
   }
-  return root_mean(squares, exact_.size());
+  return errors;
+}
+
+HorizonPilot::Harmless HorizonPilot::find_harmless(const std::vector<double>& errors, const TexelVector& sky,
+                                                   double error) const {
+  std::vector<std::pair<double, double>> squares;  // by the surface_share of its block
+  for (std::size_t i = 0; i < exact_.size(); ++i) {
+    const TileFrame& frame = frames_[exact_[i].frame];
+    const double share =
+        surface_share(surface_, sky, frame.first_row + exact_[i].row, frame.first_column + exact_[i].column);
+    squares.emplace_back(share, errors[i] * errors[i]);
+  }
+  std::sort(squares.begin(), squares.end());
+  const double most = error * error * static_cast<double>(exact_.size());
+  double sum = 0;
+  for (const auto& [share, square] : squares) {
+    if (sum + square > most) return {share, root_mean(sum, exact_.size())};
+    sum += square;
+  }
+  return {std::numeric_limits<double>::infinity(), root_mean(sum, exact_.size())};
 }
 
 }  // namespace heightlight

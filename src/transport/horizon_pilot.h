@@ -11,6 +11,9 @@
 
 namespace heightlight {
 
+/// 0 of none.
+double root_mean_square(const std::vector<double>& errors);
+
 /// Receivers on which ways of walking are tried before the whole map is walked: strips of tiles, and among
 /// them some that are walked exactly too.
 class HorizonPilot {
@@ -34,9 +37,18 @@ class HorizonPilot {
   /// `light` is filled with x.
   double link_error(const WalkOptions& options, const LightMips& light, const TexelVector& x);
 
-  /// RMSE of a gather of `x`, made with the sky's shares given, against exact ones, where only what is seen
-  /// is in error.
-  double gather_error(const TexelVector& x, const TexelVector& gathered, const TexelVector& sky) const;
+  /// Errors of a gather of `x`, made with the sky's shares given, at the receivers that are walked exactly,
+  /// where only what is seen is in error.
+  std::vector<double> gather_errors(const TexelVector& x, const TexelVector& gathered,
+                                    const TexelVector& sky) const;
+
+  /// Where blocks may have such errors: below a surface_share, infinite where all may; and the RMSE over all
+  /// receivers that this leaves, no more than `error`, were the others right.
+  struct Harmless {
+    double below;
+    double left;
+  };
+  Harmless find_harmless(const std::vector<double>& errors, const TexelVector& sky, double error) const;
 
   const Surface& surface() const { return surface_; }
 

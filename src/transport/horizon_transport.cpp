@@ -39,8 +39,8 @@ class HorizonTransport : public Transport {
 
   /// Gathers are made in single precision.
   double solver_tolerance() const override { return 1e-6; }
-  std::uint64_t link_count() const override { return light_->links().entries() * kBlock; }
-  std::uint64_t bytes() const override { return light_->links().bytes(); }
+  std::uint64_t link_count() const override { return light_->link_count(); }
+  std::uint64_t bytes() const override { return light_->bytes(); }
 
  private:
   std::unique_ptr<HeightMips> mips_;  ///< which the light refers to
@@ -55,7 +55,8 @@ std::unique_ptr<Transport> build_horizon_transport(const Surface& surface, const
   check_azimuths(plan.links.azimuths);
   auto mips = std::make_unique<HeightMips>(build_height_mips(surface));
   HorizonSky sky = walk_horizon_sky(surface, *mips, plan.sky, options.quiet);
-  auto light = std::make_unique<SeenLight>(surface, *mips, plan, options);
+  auto light = std::make_unique<SeenLight>(surface, plan, options);
+  if (plan.own_share > 0) light->add_own_links(*mips, to_vector(sky.sky_view_factor), plan, options);
   return std::make_unique<HorizonTransport>(std::move(sky), std::move(mips), std::move(light));
 }
 

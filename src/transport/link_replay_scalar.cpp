@@ -23,9 +23,11 @@ float look_at(const LightMips& light, const LightNode& node, int row, int column
 }  // namespace
 
 void replay_links_scalar(const TileFrame& tile, const std::vector<LinkAzimuth>& azimuths,
-                         const std::uint8_t* stream, const LightMips& light, float* mean) {
+                         const BlockSet& blocks, const std::uint8_t* stream, const LightMips& light,
+                         float* mean) {
   for (int i = 0; i < tile.rows; ++i) {
     for (int j = 0; j < tile.columns; j += kBlock) {
+      if (!blocks[block_index(i, j)]) continue;
       const int row = tile.first_row + i;
       const int column = tile.first_column + j;
       std::array<float, kBlock> sum{};

@@ -50,11 +50,13 @@ struct ReadingOrders {
 };
 
 void replay_links_lanes(const TileFrame& tile, const std::vector<LinkAzimuth>& azimuths,
-                        const std::uint8_t* stream, const LightMips& light, float* mean) {
+                        const BlockSet& blocks, const std::uint8_t* stream, const LightMips& light,
+                        float* mean) {
   static const ReadingOrders orders;
   const LightLevel& finest = light.level(0);
   for (int i = 0; i < tile.rows; ++i) {
     for (int j = 0; j < tile.columns; j += kBlock) {
+      if (!blocks[block_index(i, j)]) continue;
       const int row = tile.first_row + i;
       const int column = tile.first_column + j;
       const float* here = finest.origin() + std::ptrdiff_t{row} * finest.stride() + column;
@@ -113,9 +115,9 @@ namespace heightlight {
 
 HWY_EXPORT(replay_links_lanes);
 
-void replay_links(const TileFrame& tile, const std::vector<LinkAzimuth>& azimuths, const std::uint8_t* stream,
-                  const LightMips& light, float* mean) {
-  HWY_DYNAMIC_DISPATCH(replay_links_lanes)(tile, azimuths, stream, light, mean);
+void replay_links(const TileFrame& tile, const std::vector<LinkAzimuth>& azimuths, const BlockSet& blocks,
+                  const std::uint8_t* stream, const LightMips& light, float* mean) {
+  HWY_DYNAMIC_DISPATCH(replay_links_lanes)(tile, azimuths, blocks, stream, light, mean);
 }
 
 }  // namespace heightlight

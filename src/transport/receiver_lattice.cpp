@@ -45,7 +45,7 @@ TexelVector take_lattice(const Surface& surface, const ReceiverLattice& lattice,
 }
 
 void spread_lattice(const Surface& surface, const ReceiverLattice& lattice, const Image<float>& values,
-                    const TexelVector& sky, TexelVector& result) {
+                    Image<float>& spread) {
   const int stride = lattice.stride;
   const auto next = [&](int i, int count) { return i + 1 < count ? i + 1 : surface.tiles() ? 0 : i; };
   parallel_for(surface.height(), [&](std::int64_t line) {
@@ -57,18 +57,12 @@ void spread_lattice(const Surface& surface, const ReceiverLattice& lattice, cons
     const auto between_rows = [&](int column) {
       return upper[column] + down * (lower[column] - upper[column]);
     };
-    const std::int64_t start = line * surface.width();
+    float* out = &spread(row, 0);
     for (int column = 0; column < lattice.width; ++column) {
       const float left = between_rows(column);
       const float step = (between_rows(next(column, lattice.width)) - left) / static_cast<float>(stride);
       const int inside = std::min(stride, surface.width() - column * stride);
-      for (int k = 0; k < inside; ++k) {
-        const std::int64_t texel = start + std::int64_t{column} * stride + k;
-        result[texel] = (1 - sky[texel]) * static_cast<double>(left + static_cast<float>(k) * step);
-      }
-    }
-    for (std::int64_t texel = start; texel < start + surface.width(); ++texel) {
-      if (std::isnan(surface.map.height.values[static_cast<std::size_t>(texel)])) result[texel] = 0;
+      for (int k = 0; k < inside; ++k) *out++ = left + static_cast<float>(k) * step;
     }
   });
 }

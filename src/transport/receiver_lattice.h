@@ -27,9 +27,9 @@ Surface lattice_surface(const Surface& surface, const ReceiverLattice& lattice);
 /// Values of all texels at the lattice's.
 TexelVector take_lattice(const Surface& surface, const ReceiverLattice& lattice, const TexelVector& values);
 
-/// Into `result`, per texel, (1 − `sky`) × the lattice's values interpolated bilinearly (beyond the last
-/// receiver of an open map: that one's); 0 where the sample is missing.
+/// Into `spread`, per texel, the lattice's values interpolated bilinearly (beyond the last receiver of an
+/// open map: that one's).
 void spread_lattice(const Surface& surface, const ReceiverLattice& lattice, const Image<float>& values,
-                    const TexelVector& sky, TexelVector& result);
+                    Image<float>& spread);
 
 }  // namespace heightlight

@@ -7,26 +7,42 @@
 
 namespace heightlight {
 
-/// What receivers see of the surface: links of a lattice of them, spread to all.
+/// What receivers see of the surface: by links of their own, or spread from those of a lattice of receivers.
 class SeenLight {
  public:
-  SeenLight(const Surface& surface, const HeightMips& mips, const HorizonPlan& plan,
-            const HorizonOptions& options);
+  /// The lattice's links, where the plan has a lattice. `surface` must outlive it.
+  SeenLight(const Surface& surface, const HorizonPlan& plan, const HorizonOptions& options);
   SeenLight(const SeenLight&) = delete;  // its links refer to its surface
   SeenLight& operator=(const SeenLight&) = delete;
+
+  /// Gives links of their own to the receivers to which the plan does; `sky`: their sky's shares. `mips` must
+  /// outlive it.
+  void add_own_links(const HeightMips& mips, const TexelVector& sky, const HorizonPlan& plan,
+                     const HorizonOptions& options);
 
   /// F x, given the sky's shares.
   void gather(const TexelVector& x, const TexelVector& sky, TexelVector& result);
 
-  const HorizonLinks& links() const { return *links_; }
+  std::uint64_t link_count() const;
+  std::uint64_t bytes() const;
+  /// Share of the tiles that keep their links, of the receivers with their own where there are any.
+  double kept_share() const;
 
  private:
+  struct Lattice {
+    Lattice(const Surface& map, const HorizonPlan& plan, const HorizonOptions& options);
+
+    ReceiverLattice receivers;
+    Surface surface;  ///< of their samples
+    HeightMips mips;
+    HorizonLinks links;
+    Image<float> seen;
+  };
+
   const Surface& surface_;
-  ReceiverLattice lattice_;
-  Surface coarse_;  ///< of the lattice, unless it is the map itself
-  HeightMips coarse_mips_;
-  std::unique_ptr<HorizonLinks> links_;
-  Image<float> mean_;  ///< what the lattice's receivers see
+  std::unique_ptr<Lattice> lattice_;
+  std::unique_ptr<HorizonLinks> own_;
+  Image<float> seen_;
 };
 
 }  // namespace heightlight

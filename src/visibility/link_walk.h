@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bitset>
 #include <cstdint>
 #include <vector>
 
@@ -15,14 +16,27 @@
 // over their sum, are the shares of what it sees in all that it sees; the sky's share comes from a walk of
 // its own, with more azimuths.
 //
-// For each row of a tile and each kBlock receivers of it, the stream holds, azimuth by azimuth, the number of
-// entries with near nodes, that of the others, and the entries: a node's number and kBlock weights.
+// For each row of a tile and each kBlock receivers of it that are asked for, the stream holds, azimuth by
+// azimuth, the number of entries with near nodes, that of the others, and the entries: a node's number and
+// kBlock weights.
 
 namespace heightlight {
 
 /// Receivers in a block.
 constexpr int kBlock = 16;
 constexpr int kEntryBytes = 1 + kBlock;
+constexpr int kBlocksAcross = kTileSide / kBlock;
+
+/// Some of a tile's blocks.
+using BlockSet = std::bitset<static_cast<std::size_t>(kTileSide) * kBlocksAcross>;
+
+/// Index in a set of the block that the receiver in row i and column j of a tile belongs to.
+constexpr std::size_t block_index(int i, int j) {
+  return static_cast<std::size_t>(i) * kBlocksAcross + static_cast<std::size_t>(j / kBlock);
+}
+
+/// All blocks that have receivers inside the map.
+BlockSet all_blocks(const TileFrame& tile);
 
 /// Bytes before the entries of an azimuth: how many there are.
 constexpr int kCountBytes = 2;
@@ -50,12 +64,12 @@ struct LinkAzimuth {
 
 std::vector<LinkAzimuth> make_link_azimuths(const Surface& surface, const WalkOptions& options);
 
-/// Appends a tile's links to `stream`. The readable one.
-void walk_links_scalar(const WalkTile& tile, const std::vector<LinkAzimuth>& azimuths,
+/// Appends the links of a tile's `blocks` to `stream`. The readable one.
+void walk_links_scalar(const WalkTile& tile, const std::vector<LinkAzimuth>& azimuths, const BlockSet& blocks,
                        std::vector<std::uint8_t>& stream);
 
 /// The fast one. Rounding may move a step from one entry to the next.
-void walk_links(const WalkTile& tile, const std::vector<LinkAzimuth>& azimuths,
+void walk_links(const WalkTile& tile, const std::vector<LinkAzimuth>& azimuths, const BlockSet& blocks,
                 std::vector<std::uint8_t>& stream);
 
 }  // namespace heightlight

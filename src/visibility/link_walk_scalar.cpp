@@ -111,11 +111,20 @@ std::vector<LinkAzimuth> make_link_azimuths(const Surface& surface, const WalkOp
   return azimuths;
 }
 
-void walk_links_scalar(const WalkTile& tile, const std::vector<LinkAzimuth>& azimuths,
+BlockSet all_blocks(const TileFrame& tile) {
+  BlockSet blocks;
+  for (int row = 0; row < tile.rows; ++row) {
+    for (int column = 0; column < tile.columns; column += kBlock) blocks.set(block_index(row, column));
+  }
+  return blocks;
+}
+
+void walk_links_scalar(const WalkTile& tile, const std::vector<LinkAzimuth>& azimuths, const BlockSet& blocks,
                        std::vector<std::uint8_t>& stream) {
   std::vector<NodeWeights> weights(kBlock);
   for (int row = 0; row < tile.rows; ++row) {
     for (int column = 0; column < tile.columns; column += kBlock) {
+      if (!blocks[block_index(row, column)]) continue;
       std::array<float, kBlock> sum{};    // of weights so far, in steps
       std::array<float, kBlock> given{};  // whole steps
       for (const LinkAzimuth& azimuth : azimuths) {

@@ -269,7 +269,7 @@ void append_entries(const LinkAzimuth& azimuth, BlockWeights& weights, StepCount
   stream.insert(stream.end(), entries, out);
 }
 
-void walk_links_lanes(const WalkTile& tile, const std::vector<LinkAzimuth>& azimuths,
+void walk_links_lanes(const WalkTile& tile, const std::vector<LinkAzimuth>& azimuths, const BlockSet& blocks,
                       std::vector<std::uint8_t>& stream) {
   const int lanes = static_cast<int>(hn::Lanes(kF));
   const std::size_t rings = azimuths.empty() ? 0 : azimuths.front().walk.rings.size();
@@ -288,6 +288,7 @@ void walk_links_lanes(const WalkTile& tile, const std::vector<LinkAzimuth>& azim
   BlockWeights weights;
   for (int row = 0; row < tile.rows; ++row) {
     for (int column = 0; column < tile.columns; column += kBlock) {
+      if (!blocks[block_index(row, column)]) continue;
       StepCount count;
       count.sum.fill(hn::Zero(kF));
       count.given.fill(hn::Zero(kI));
@@ -311,9 +312,9 @@ namespace heightlight {
 
 HWY_EXPORT(walk_links_lanes);
 
-void walk_links(const WalkTile& tile, const std::vector<LinkAzimuth>& azimuths,
+void walk_links(const WalkTile& tile, const std::vector<LinkAzimuth>& azimuths, const BlockSet& blocks,
                 std::vector<std::uint8_t>& stream) {
-  HWY_DYNAMIC_DISPATCH(walk_links_lanes)(tile, azimuths, stream);
+  HWY_DYNAMIC_DISPATCH(walk_links_lanes)(tile, azimuths, blocks, stream);
 }
 
 }  // namespace heightlight

@@ -13,19 +13,20 @@ namespace {
 
 using Stream = std::vector<std::uint8_t>;
 using Azimuths = std::vector<LinkAzimuth>;
-using WalkLinks = void (*)(const WalkTile&, const Azimuths&, Stream&);
-using Replay = void (*)(const TileFrame&, const Azimuths&, const std::uint8_t*, const LightMips&, float*);
+using WalkLinks = void (*)(const WalkTile&, const Azimuths&, const BlockSet&, Stream&);
+using Replay = void (*)(const TileFrame&, const Azimuths&, const BlockSet&, const std::uint8_t*,
+                        const LightMips&, float*);
 
 Stream stream_of(WalkLinks walk, const WalkTile& tile, const Azimuths& azimuths) {
   Stream stream;
-  walk(tile, azimuths, stream);
+  walk(tile, azimuths, all_blocks(tile), stream);
   return stream;
 }
 
 std::vector<float> means_of(Replay replay, const TileFrame& tile, const Azimuths& azimuths,
                             const Stream& stream, const LightMips& light) {
   std::vector<float> mean(WalkTile::kTexels);
-  replay(tile, azimuths, stream.data(), light, mean.data());
+  replay(tile, azimuths, all_blocks(tile), stream.data(), light, mean.data());
   return mean;
 }
 
@@ -112,6 +113,38 @@ Ground ground(int which) {
     default:
       return {"tiny", make_rough_map(5, 3, Boundary::tile, 0.3, 0, 1)};
   }
+}
+
+TEST_CASE("blocks that are not asked for have no links, and the others the same as ever",
+          "[visibility][links]") {
+  const auto [name, map] = ground(GENERATE(0, 3, 5, 7));
+  const Surface surface = build_surface(map);
+  const WalkOptions options{8, 8, 0.3F};
+  INFO(name);
+  const Azimuths azimuths = make_link_azimuths(surface, options);
+  LightMips light(surface);
+  light.fill(make_field(surface));
+  for_tiles(surface, options, [&](const WalkTile& tile) {
+    BlockSet wanted;
+    for (std::size_t i = 0; i < wanted.size(); i += 3) wanted.set(i);
+    wanted &= all_blocks(tile);
+    for (const WalkLinks walk : {walk_links_scalar, walk_links}) {
+      const std::vector<float> all =
+          means_of(replay_links, tile, azimuths, stream_of(walk, tile, azimuths), light);
+      Stream stream;
+      walk(tile, azimuths, wanted, stream);
+      for (const Replay replay : {replay_links_scalar, replay_links}) {
+        std::vector<float> some(WalkTile::kTexels, -7);
+        replay(tile, azimuths, wanted, stream.data(), light, some.data());
+        for_receivers(tile, [&](std::size_t at) {
+          const bool is_wanted = wanted[block_index(static_cast<int>(at) / WalkTile::kSide,
+                                                    static_cast<int>(at) % WalkTile::kSide)];
+          // rounding of fused products between the replays (as in the test below)
+          REQUIRE(some[at] == (is_wanted ? Approx(all[at]).margin(2e-6) : Approx(-7)));
+        });
+      }
+    }
+  });
 }
 
 TEST_CASE("the link walk's lanes and its scalar twin tell the same light on every instruction set",
