@@ -60,7 +60,7 @@ void measure(const Options& options, const std::filesystem::path& folder, const 
   const Surface surface = build_surface(load_heightmap(path, {}, options.memory).map);
   const HeightMips mips = build_height_mips(surface);
   const Stopwatch walk_watch;
-  walk_horizon_sky(surface, mips, plan, true);
+  walk_horizon_sky(surface, mips, plan, true, {{}, {}, visibility["full_from"].get<double>()});
   const Cost walk = walk_watch.elapsed();
   const double megatexels = 1e-6 * size * size;
   const auto per = [megatexels](double seconds) { return seconds / megatexels; };

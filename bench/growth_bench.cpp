@@ -78,7 +78,7 @@ class WalkedTransport : public Transport {
     growth.pilot = pilot_watch.elapsed();
     const Stopwatch sky_watch;
     mips_ = build_height_mips(surface);
-    HorizonSky sky = walk_horizon_sky(surface, mips_, plan.sky, true);
+    HorizonSky sky = walk_horizon_sky(surface, mips_, plan.sky, true, {{}, {}, plan.sky_full_from});
     growth.sky = sky_watch.elapsed();
     ambient_occlusion = std::move(sky.ambient_occlusion);
     sky_view_factor = std::move(sky.sky_view_factor);

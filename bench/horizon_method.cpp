@@ -1,7 +1,6 @@
 #include "horizon_method.h"
 
-#include <limits>
-#include <memory>
+#include <cmath>
 #include <string>
 
 #include "heightlight/transport.h"
@@ -14,36 +13,20 @@ namespace {
 
 constexpr std::uint64_t kSeed = 1;  // of the pilot's receivers, which are not the reference's
 
-Map walk_sky(const Surface& surface, const WalkOptions& options) {
-  return walk_horizon_sky(surface, build_height_mips(surface), options, true).sky_view_factor;
+Map walk_sky(const Surface& surface, const WalkOptions& options, double full_from) {
+  return walk_horizon_sky(surface, build_height_mips(surface), options, true, {{}, {}, full_from})
+      .sky_view_factor;
 }
 
-/// The share of peaks that a pilot finds best, of those that plans try.
-float choose_peak_share(const Surface& surface, int fineness) {
-  HorizonPilot pilot(surface, kSeed);
-  float best = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (const float peak_share : {0.0F, 0.15F, 0.3F, 0.45F, 0.6F, 0.75F}) {
-    const double error = pilot.sampling_error(fineness, peak_share);
-    if (error >= least) continue;
-    least = error;
-    best = peak_share;
-  }
-  return best;
-}
-
-Method walk_method(const Surface& surface, int fineness) {
-  const auto peak_share = std::make_shared<float>();
+/// A walk whose azimuths and fineness are given; every other azimuth where 1 − A is less than `full_from`.
+Method walk_method(const Surface& surface, int fineness, double full_from) {
   Method method;
-  method.name = "horizon walk, fineness " + std::to_string(fineness);
+  method.name = "horizon walk, fineness " + std::to_string(fineness) + (full_from > 0 ? ", sparse" : "");
   method.parameter = "azimuths";
-  method.settings = {4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128};
-  method.granularity = 2;
-  method.set_up = [peak_share, &surface, fineness](int) {
-    *peak_share = choose_peak_share(surface, fineness);
-  };
-  method.run_map = [peak_share, &surface, fineness](int azimuths) {
-    return walk_sky(surface, {azimuths, fineness, *peak_share});
+  method.settings = {4, 8, 12, 16, 24, 32, 48, 64, 96, 128};
+  method.granularity = 4;
+  method.run_map = [&surface, fineness, full_from](int azimuths) {
+    return walk_sky(surface, {azimuths, fineness}, full_from);
   };
   return method;
 }
@@ -64,7 +47,8 @@ Method planned_sky_method(const Surface& surface) {
     HorizonGoal goal;
     goal.error = 1.0 / inverse;
     HorizonPilot pilot(surface, kSeed);
-    return walk_sky(surface, plan_sky(pilot, goal).sky);
+    const HorizonPlan plan = plan_sky(pilot, goal);
+    return walk_sky(surface, plan.sky, plan.sky_full_from);
   };
   return method;
 }
@@ -73,7 +57,9 @@ Method planned_sky_method(const Surface& surface) {
 
 std::vector<Method> horizon_sky_methods(const Surface& surface) {
   std::vector<Method> methods;
-  for (const int fineness : {8, 12, 16, 24, 32}) methods.push_back(walk_method(surface, fineness));
+  constexpr double kFullFrom = 0.3;  // beside walls, on brick a third of the map
+  for (const int fineness : {8, 12, 16, 20, 24, 32}) methods.push_back(walk_method(surface, fineness, 0));
+  for (const int fineness : {12, 16, 20, 24}) methods.push_back(walk_method(surface, fineness, kFullFrom));
   methods.push_back(planned_sky_method(surface));
   return methods;
 }

@@ -108,13 +108,16 @@ FormFactors build_exact_form_factors(const Surface& surface, int azimuths, const
 /// lattice of receivers, every stride-th a side, are enough.
 struct HorizonPlan {
   WalkOptions sky;
-  WalkOptions links;          ///< of receivers that have their own; where none has, the lattice's
-  int lattice_stride = 1;     ///< of the lattice that tells others what they see; 1: there is none
-  WalkOptions lattice_links;  ///< its receivers' links
-  double own_links_from = 0;  ///< RMS of 1 − A in 16 receivers of a row from which they have their own
-  double own_share = 1;       ///< of blocks of 16 receivers, those that do; 0: none does
-  double sky_error = 0;       ///< RMSE of A expected, from the pilot; 0 where there was none
-  double link_error = 0;      ///< RMSE of the total at ρ = 0.8 expected from the links alone
+  WalkOptions links;         ///< of receivers that have their own; where none has, the lattice's
+  double sky_full_from = 0;  ///< RMS of 1 − A in 4 × 16 receivers from which they walk all azimuths; others
+                             ///< walk every other one
+  double sky_full_share = 1;       ///< of the blocks, those that walk all, by the pilot
+  int lattice_stride = 1;          ///< of the lattice that tells others what they see; 1: there is none
+  WalkOptions lattice_links = {};  ///< its receivers' links
+  double own_links_from = 0;       ///< RMS of 1 − A in 16 receivers of a row from which they have their own
+  double own_share = 1;            ///< of blocks of 16 receivers, those that do; 0: none does
+  double sky_error = 0;            ///< RMSE of A expected, from the pilot; 0 where there was none
+  double link_error = 0;           ///< RMSE of the total at ρ = 0.8 expected from the links alone
 };
 
 /// What walking may use.

@@ -17,7 +17,7 @@ constexpr double kBounceShare = 0.2;
 
 /// Of the error wanted, that A may have where moments are wanted too: at an RMSE of 0.002 bent normals err by
 /// 0.1 to 0.4 degrees, and at most by 0.3 at this share of it (brick walls; other maps by half of that).
-constexpr double kMomentShare = 0.7;
+constexpr double kMomentShare = 0.6;
 
 /// Calls work() and returns the seconds that it took.
 template <class Work>
@@ -175,13 +175,15 @@ void find_sky(const Needs& needs, const BakeOptions& options, Material& material
     const HorizonPlan plan = plan_sky(pilot, goal_of(options, false, needs.moments.first));
     if (!material.plan) material.plan = plan;
     material.plan->sky = plan.sky;
+    material.plan->sky_full_from = options.reach ? 0 : plan.sky_full_from;  // found without a reach
+    material.plan->sky_full_share = options.reach ? 1 : plan.sky_full_share;
     material.plan->sky_error = plan.sky_error;
   }
   const HeightMips mips = build_height_mips(surface);
   const bool has_sky = material.sky.sky_view_factor.size() > 0;
   if (needs.sky && !has_sky) {
-    material.sky =
-        walk_horizon_sky(surface, mips, material.plan->sky, options.quiet, {needs.moments, options.reach});
+    material.sky = walk_horizon_sky(surface, mips, material.plan->sky, options.quiet,
+                                    {needs.moments, options.reach, material.plan->sky_full_from});
   }
   if (!needs.horizons) return;
   std::vector<double> azimuths;

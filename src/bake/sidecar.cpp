@@ -98,6 +98,8 @@ Json describe_visibility(const BakeOptions& options, const Material& material) {
   if (!material.plan) return json;
   const HorizonPlan& plan = *material.plan;
   json["azimuths"] = plan.sky.azimuths;
+  json["full_from"] = plan.sky_full_from;
+  json["full_share"] = plan.sky_full_share;
   json["fineness"] = plan.sky.fineness;
   json["peak_share"] = plan.sky.peak_share;
   json["expected_rmse"] = {{"sky_view_factor", plan.sky_error}};

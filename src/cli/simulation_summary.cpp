@@ -36,6 +36,8 @@ Json describe_energy(const EnergyCheck& energy) {
 /// The walks of a plan, and what the pilot expected of each part.
 void add_plan(const HorizonPlan& plan, Json& visibility) {
   visibility["azimuths"] = plan.sky.azimuths;
+  visibility["full_from"] = plan.sky_full_from;
+  visibility["full_share"] = plan.sky_full_share;
   visibility["fineness"] = plan.sky.fineness;
   visibility["peak_share"] = plan.sky.peak_share;
   visibility["links"] = {{"azimuths", plan.links.azimuths},

@@ -12,7 +12,9 @@
 #include "transport/exact_gather.h"
 #include "transport/link_replay.h"
 #include "transport/receiver_blocks.h"
+#include "visibility/horizon_sky.h"
 #include "visibility/sky_walk.h"
+#include "visibility/slice_integrals.h"
 
 namespace heightlight {
 namespace {
@@ -39,6 +41,22 @@ std::vector<TileFrame> cut_strips(const Surface& surface) {
 
 double root_mean(double squares, std::size_t count) {
   return count > 0 ? std::sqrt(squares / static_cast<double>(count)) : 0;
+}
+
+/// A of an exact view by every other azimuth; NaN where the sample is missing.
+double sky_by_even_azimuths(const ExactWalker& walker, const Eigen::Vector3f& normal, const SliceView& view) {
+  const Eigen::Vector3d n = normal.cast<double>().normalized();
+  double sky = 0;
+  double whole = 0;
+  for (std::size_t k = 0; k < view.horizon_rad.size(); k += 2) {
+    const double azimuth = walker.azimuth_rad(static_cast<int>(k));
+    const SliceNormal in_slice{n.x() * std::cos(azimuth) + n.y() * std::sin(azimuth), n.z()};
+    const double tangent = tangent_slope(in_slice);
+    const double horizon = std::max(std::tan(view.horizon_rad[k]), tangent);
+    whole += cosine_mass(in_slice, elevation_of_slope(tangent), {});
+    sky += cosine_mass(in_slice, elevation_of_slope(horizon), {});
+  }
+  return sky / whole;
 }
 
 }  // namespace
@@ -72,32 +90,56 @@ HorizonPilot::HorizonPilot(const Surface& surface, std::uint64_t seed)
                                static_cast<std::uint64_t>(frame.rows * frame.columns);
     receiver.row = static_cast<int>(pick) / frame.columns;
     receiver.column = static_cast<int>(pick) % frame.columns;
-    walker.view(frame.first_row + receiver.row, frame.first_column + receiver.column, receiver.view);
+    const int row = frame.first_row + receiver.row;
+    const int column = frame.first_column + receiver.column;
+    walker.view(row, column, receiver.view);
+    receiver.even_sky = sky_by_even_azimuths(walker, surface.normal(row, column), receiver.view);
   });
   std::copy_if(receivers.begin(), receivers.end(), std::back_inserter(exact_),
                [](const ExactReceiver& receiver) { return !std::isnan(receiver.view.sky_view_factor); });
 }
 
-std::vector<float> HorizonPilot::walk_sky_of(const WalkOptions& options) {
+std::vector<float> HorizonPilot::walk_sky_of(const WalkOptions& options, EvenWalk* even) {
   std::vector<AzimuthTable> azimuths;
   for (int k = 0; k < options.azimuths; ++k) {
     azimuths.push_back(make_azimuth_table(surface_, options, azimuth_rad(options, k)));
   }
   const int rings = ring_count(surface_, options);
+  constexpr std::size_t kBlocks = SkyBlocks().size();
   std::vector<float> result(frames_.size() * WalkTile::kTexels);
+  if (even) {
+    even->sky.resize(result.size());
+    even->shares.resize(frames_.size() * kBlocks);
+  }
   parallel_for(static_cast<std::int64_t>(frames_.size()), [&](std::int64_t i) {
+    const auto strip = static_cast<std::size_t>(i);
     const auto tile = std::make_unique<WalkTile>();
     const auto sums = std::make_unique<SkySums>();
     const auto far = std::make_unique<FarView>();
-    tile->load(surface_, mips_, options, rings, frames_[static_cast<std::size_t>(i)]);
-    for (const AzimuthTable& azimuth : azimuths) {
-      look_far(*tile, azimuth, *far);
-      walk_sky(*tile, azimuth, *far, *sums);
+    tile->load(surface_, mips_, options, rings, frames_[strip]);
+    const auto walk = [&](std::size_t first, std::size_t step) {
+      for (std::size_t k = first; k < azimuths.size(); k += step) {
+        look_far(*tile, azimuths[k], *far);
+        walk_sky(*tile, azimuths[k], *far, *sums);
+      }
+    };
+    const auto write = [&](std::vector<float>& sky) {
+      float* out = sky.data() + strip * WalkTile::kTexels;
+      for (std::size_t at = 0; at < WalkTile::kTexels; ++at) {
+        out[at] = tile->present[at] && sums->full[at] > 0 ? sums->sky[at] / sums->full[at] : -1;
+      }
+    };
+    if (even) {
+      walk(0, 2);
+      write(even->sky);
+      for (std::size_t block = 0; block < kBlocks; ++block) {
+        even->shares[strip * kBlocks + block] = surface_share(*tile, *sums, block);
+      }
+      walk(1, 2);
+    } else {
+      walk(0, 1);
     }
-    float* out = result.data() + i * WalkTile::kTexels;
-    for (std::size_t at = 0; at < WalkTile::kTexels; ++at) {
-      out[at] = tile->present[at] && sums->full[at] > 0 ? sums->sky[at] / sums->full[at] : -1;
-    }
+    write(result);
   });
   return result;
 }
@@ -113,35 +155,84 @@ double HorizonPilot::total_seen(double albedo) const {
   return seen > 0 ? total / seen : 1;
 }
 
-double HorizonPilot::sampling_error(int fineness, float peak_share) {
-  const std::vector<float> walked = walk_sky_of({kExactAzimuths, fineness, peak_share});
+SamplingError HorizonPilot::sampling_error(int fineness, float peak_share) {
+  EvenWalk even;
+  const std::vector<float> walked = walk_sky_of({kExactAzimuths, fineness, peak_share}, &even);
   double squares = 0;
+  double own = 0;
   for (const ExactReceiver& receiver : exact_) {
     const std::size_t at = receiver.frame * WalkTile::kTexels +
                            static_cast<std::size_t>(receiver.row * TileFrame::kSide + receiver.column);
     const double error = double{walked[at]} - receiver.view.sky_view_factor;
+    const double even_error = double{even.sky[at]} - receiver.even_sky;
     squares += error * error;
+    own += (even_error - error) * (even_error - error);  // half the halves' difference: of the mean of both
   }
-  return root_mean(squares, exact_.size());
+  return {root_mean(std::max(squares - own, 0.0), exact_.size()),
+          root_mean(kExactAzimuths * own, exact_.size())};
+}
+
+const std::vector<float>& HorizonPilot::many_like(const WalkOptions& options) {
+  if (many_.empty() || many_options_.fineness != options.fineness ||
+      many_options_.peak_share != options.peak_share) {
+    many_options_ = options;
+    many_options_.azimuths = kManyAzimuths;
+    many_ = walk_sky_of(many_options_);
+  }
+  return many_;
 }
 
 double HorizonPilot::azimuth_error(const WalkOptions& options) {
-  WalkOptions many = options;
-  many.azimuths = kManyAzimuths;
-  if (many_.empty() || many.fineness != many_options_.fineness ||
-      many.peak_share != many_options_.peak_share) {
-    many_ = walk_sky_of(many);
-    many_options_ = many;
-  }
+  const std::vector<float>& many = many_like(options);
   const std::vector<float> few = walk_sky_of(options);
   double squares = 0;
   std::size_t count = 0;
   for (std::size_t at = 0; at < few.size(); ++at) {
     if (few[at] < 0) continue;
-    squares += double{few[at] - many_[at]} * double{few[at] - many_[at]};
+    squares += double{few[at] - many[at]} * double{few[at] - many[at]};
     ++count;
   }
   return root_mean(squares, count);
+}
+
+HorizonPilot::Sparse HorizonPilot::find_sparse(const WalkOptions& options, double error) {
+  struct Block {
+    double share = 0;
+    double loss = 0;  // squared errors of every other azimuth less those of all
+    int receivers = 0;
+  };
+  constexpr std::size_t kBlocks = SkyBlocks().size();
+  const std::vector<float>& many = many_like(options);
+  EvenWalk even;
+  const std::vector<float> all = walk_sky_of(options, &even);
+  std::vector<Block> blocks(even.shares.size());
+  double squares = 0;
+  std::size_t count = 0;
+  for (std::size_t at = 0; at < all.size(); ++at) {
+    if (all[at] < 0) continue;
+    const auto in_tile = static_cast<int>(at % WalkTile::kTexels);
+    Block& block = blocks[at / WalkTile::kTexels * kBlocks +
+                          sky_block(in_tile / WalkTile::kSide, in_tile % WalkTile::kSide)];
+    const double by_all = double{all[at] - many[at]} * double{all[at] - many[at]};
+    const double by_even = double{even.sky[at] - many[at]} * double{even.sky[at] - many[at]};
+    squares += by_all;
+    block.loss += by_even - by_all;
+    ++block.receivers;
+    ++count;
+  }
+  for (std::size_t i = 0; i < blocks.size(); ++i) blocks[i].share = even.shares[i];
+  std::sort(blocks.begin(), blocks.end(), [](const Block& a, const Block& b) { return a.share < b.share; });
+  const double most = error * error * static_cast<double>(count);
+  double full = static_cast<double>(count);
+  for (const Block& block : blocks) {
+    if (block.receivers == 0) continue;
+    if (squares + block.loss > most) {
+      return {block.share, full / static_cast<double>(count), root_mean(squares, count)};
+    }
+    squares += block.loss;
+    full -= block.receivers;
+  }
+  return {std::numeric_limits<double>::infinity(), 0, root_mean(squares, count)};
 }
 
 double HorizonPilot::link_error(const WalkOptions& options, const LightMips& light, const TexelVector& x) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -13,6 +14,15 @@ namespace heightlight {
 
 /// 0 of none.
 double root_mean_square(const std::vector<double>& errors);
+
+/// An error that azimuths share, and one that each has for itself, of which the mean over many keeps little.
+/// Both are RMSE of A; `own` is that of one azimuth.
+struct SamplingError {
+  double shared = 0;
+  double own = 0;
+
+  double at(int azimuths) const { return std::hypot(shared, own / std::sqrt(azimuths)); }
+};
 
 /// Receivers on which ways of walking are tried before the whole map is walked: strips of tiles, and among
 /// them some that are walked exactly too.
@@ -28,10 +38,20 @@ class HorizonPilot {
   double total_seen(double albedo) const;
 
   /// RMSE of A against exact walks along the same azimuths: what sampling costs, apart from few azimuths.
-  double sampling_error(int fineness, float peak_share);
+  SamplingError sampling_error(int fineness, float peak_share);
 
   /// RMSE of A against kManyAzimuths walked alike: what few azimuths cost, apart from sampling.
   double azimuth_error(const WalkOptions& options);
+
+  /// Where every other azimuth will do: the blocks below a surface_share, as SkyTask has it; the share of the
+  /// others, which walk all; and the RMSE of A against kManyAzimuths that this leaves, no more than `error`
+  /// where all azimuths everywhere leave no more. `options.azimuths` is a multiple of 4.
+  struct Sparse {
+    double full_from;
+    double full_share;
+    double error;
+  };
+  Sparse find_sparse(const WalkOptions& options, double error);
 
   /// RMSE of (1 − A) × the mean of `x` seen, against exact walks, where only what is seen is in error.
   /// `light` is filled with x.
@@ -61,10 +81,20 @@ class HorizonPilot {
     int row;            ///< in the strip
     int column;
     SliceView view;
+    double even_sky;  ///< A by every other azimuth
   };
 
-  /// A of all receivers of the pilot, strip by strip.
-  std::vector<float> walk_sky_of(const WalkOptions& options);
+  /// What every other azimuth tells.
+  struct EvenWalk {
+    std::vector<float> sky;      ///< A of all receivers of the pilot
+    std::vector<double> shares;  ///< surface_share of the blocks of each strip's tile
+  };
+
+  /// A of all receivers of the pilot, strip by strip; −1 where there is none.
+  std::vector<float> walk_sky_of(const WalkOptions& options, EvenWalk* even = nullptr);
+
+  /// A by kManyAzimuths walked as the options have it, but for their number.
+  const std::vector<float>& many_like(const WalkOptions& options);
 
   const Surface& surface_;
   HeightMips mips_;

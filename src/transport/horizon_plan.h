@@ -7,6 +7,12 @@
 
 namespace heightlight {
 
+/// Of the error wanted, what a plan aims at: the pilot's sample is small.
+constexpr double kPlanAim = 0.9;
+
+/// The albedo up to which a plan's error is meant.
+constexpr double kPlanAlbedo = 0.8;
+
 /// Cost of a walk of the sky: K azimuths, each in units of its fineness ν. Measured 4.3, 5.4, 7.1, 9.1 and
 /// 11.5 ns for ν of 8, 12, 16, 24 and 32.
 double walk_cost(const WalkOptions& options);

@@ -54,7 +54,7 @@ std::unique_ptr<Transport> build_horizon_transport(const Surface& surface, const
   check_azimuths(plan.sky.azimuths);
   check_azimuths(plan.links.azimuths);
   auto mips = std::make_unique<HeightMips>(build_height_mips(surface));
-  HorizonSky sky = walk_horizon_sky(surface, *mips, plan.sky, options.quiet);
+  HorizonSky sky = walk_horizon_sky(surface, *mips, plan.sky, options.quiet, {{}, {}, plan.sky_full_from});
   auto light = std::make_unique<SeenLight>(surface, plan, options);
   if (plan.own_share > 0) light->add_own_links(*mips, to_vector(sky.sky_view_factor), plan, options);
   return std::make_unique<HorizonTransport>(std::move(sky), std::move(mips), std::move(light));
@@ -68,7 +68,8 @@ PlannedTransport plan_horizon_transport(const Surface& surface, const HorizonGoa
   HorizonPilot pilot(surface, goal.seed);
   planned.plan = plan_sky(pilot, goal);
   auto mips = std::make_unique<HeightMips>(build_height_mips(surface));
-  HorizonSky sky = walk_horizon_sky(surface, *mips, planned.plan.sky, options.quiet, {wanted, {}});
+  HorizonSky sky = walk_horizon_sky(surface, *mips, planned.plan.sky, options.quiet,
+                                    {wanted, {}, planned.plan.sky_full_from});
   planned.moments = std::move(sky.moments);
   std::unique_ptr<SeenLight> light =
       plan_links(pilot, *mips, to_vector(sky.sky_view_factor), goal, options, planned.plan);

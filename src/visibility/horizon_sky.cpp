@@ -83,14 +83,27 @@ void for_receivers(const WalkTile& tile, const Map& map, Write&& write) {
   }
 }
 
+/// Walks every other azimuth, then the rest where `full_from` tells to.
+void walk_sparsely(const Route& route, double full_from, Workspace& work) {
+  for (std::size_t k = 0; k < route.azimuths.size(); k += 2) walk_azimuth(route.azimuths[k], work);
+  for (std::size_t block = 0; block < work.sums.blocks.size(); ++block) {
+    work.sums.blocks[block] = surface_share(work.tile, work.sums, block) >= full_from;
+  }
+  if (work.sums.blocks.none()) return;
+  for (std::size_t k = 1; k < route.azimuths.size(); k += 2) walk_azimuth(route.azimuths[k], work);
+}
+
 void write_tile(const Workspace& work, int azimuths, HorizonSky& sky) {
   const SkySums& sums = work.sums;
   for_receivers(work.tile, sky.sky_view_factor, [&](std::size_t texel, std::size_t at) {
     const bool present = work.tile.present[at];
     const float full = present ? sums.full[at] : kMissing;
     sky.sky_view_factor.values[texel] = present ? std::clamp(sums.sky[at] / full, 0.0F, 1.0F) : kMissing;
+    const bool all = sums.blocks[sky_block(static_cast<int>(at) / WalkTile::kSide,
+                                           static_cast<int>(at) % WalkTile::kSide)];
+    const auto walked = static_cast<float>(all ? azimuths : azimuths / 2);
     sky.ambient_occlusion.values[texel] =
-        present ? std::clamp(sums.solid[at] / static_cast<float>(azimuths), 0.0F, 1.0F) : kMissing;
+        present ? std::clamp(sums.solid[at] / walked, 0.0F, 1.0F) : kMissing;
     if (sums.wanted.first) {
       sky.moments.first.values[texel] =
           Eigen::Vector3f(sums.first[0][at], sums.first[1][at], sums.first[2][at]) / full;
@@ -102,6 +115,23 @@ void write_tile(const Workspace& work, int azimuths, HorizonSky& sky) {
 }
 
 }  // namespace
+
+double surface_share(const WalkTile& tile, const SkySums& sums, std::size_t block) {
+  const int top = static_cast<int>(block) / kSkyBlocksAcross * kSkyBlockRows;
+  const int left = static_cast<int>(block) % kSkyBlocksAcross * kSkyBlockColumns;
+  double squares = 0;
+  int present = 0;
+  for (int i = top; i < std::min(top + kSkyBlockRows, tile.rows); ++i) {
+    for (int j = left; j < std::min(left + kSkyBlockColumns, tile.columns); ++j) {
+      const auto at = static_cast<std::size_t>(i * WalkTile::kSide + j);
+      if (!tile.present[at]) continue;
+      const double share = 1 - double{sums.sky[at]} / double{sums.full[at]};
+      squares += share * share;
+      ++present;
+    }
+  }
+  return present > 0 ? std::sqrt(squares / present) : 0;
+}
 
 HorizonSky walk_horizon_sky(const Surface& surface, const HeightMips& mips, const WalkOptions& options,
                             bool quiet, const SkyTask& task) {
@@ -116,7 +146,11 @@ HorizonSky walk_horizon_sky(const Surface& surface, const HeightMips& mips, cons
   for_tiles(surface, mips, options, route, "sky", quiet, [&](Workspace& work) {
     work.sums.wanted = task.wanted;
     work.sums.clear();
-    for (const Azimuth& azimuth : route.azimuths) walk_azimuth(azimuth, work);
+    if (task.full_from > 0) {
+      walk_sparsely(route, task.full_from, work);
+    } else {
+      for (const Azimuth& azimuth : route.azimuths) walk_azimuth(azimuth, work);
+    }
     write_tile(work, options.azimuths, sky);
   });
   return sky;

@@ -6,7 +6,7 @@
 #include "heightlight/image.h"
 #include "heightlight/visibility.h"
 #include "visibility/height_mips.h"
-#include "visibility/walk_table.h"
+#include "visibility/sky_walk.h"
 
 namespace heightlight {
 
@@ -17,11 +17,17 @@ struct HorizonSky {
   SkyMoments moments;     ///< those that were wanted
 };
 
-/// How much more than the shares is found, and how far occluders count.
+/// How much more than the shares is found, how far occluders count, and where every other azimuth will do:
+/// quadrature errs most where much of the surface is seen.
 struct SkyTask {
   SkyWanted wanted;
   std::optional<Reach> reach;  ///< everywhere, where absent
+  double full_from = 0;  ///< > 0: RMS of 1 − A, by every other azimuth, in a block of 4 × 16 receivers from
+                         ///< which all azimuths are walked; their number is a multiple of 4
 };
+
+/// By the sums so far: the RMS of 1 − A over the receivers of a tile's block that are present.
+double surface_share(const WalkTile& tile, const SkySums& sums, std::size_t block);
 
 HorizonSky walk_horizon_sky(const Surface& surface, const HeightMips& mips, const WalkOptions& options,
                             bool quiet, const SkyTask& task = {});

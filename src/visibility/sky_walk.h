@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <bitset>
 
 #include "visibility/far_view.h"
 #include "visibility/reach_table.h"
@@ -27,6 +28,18 @@
 
 namespace heightlight {
 
+/// Receivers that are walked or left out together: the rows of a group, and as many columns as the widest
+/// vector.
+constexpr int kSkyBlockRows = WalkTile::kGroup;
+constexpr int kSkyBlockColumns = 16;
+constexpr int kSkyBlocksAcross = WalkTile::kSide / kSkyBlockColumns;
+using SkyBlocks = std::bitset<static_cast<std::size_t>(WalkTile::kSide / kSkyBlockRows) * kSkyBlocksAcross>;
+
+/// Index of the block that the receiver in row i and column j of a tile belongs to.
+constexpr std::size_t sky_block(int i, int j) {
+  return static_cast<std::size_t>(i / kSkyBlockRows * kSkyBlocksAcross + j / kSkyBlockColumns);
+}
+
 /// Sums over the azimuths walked so far, per receiver of a tile.
 struct SkySums {
   using Values = std::array<float, WalkTile::kTexels>;
@@ -42,7 +55,9 @@ struct SkySums {
   bool keep_slope = false;
   alignas(64) Values slope{};  ///< keep_slope: of the last azimuth's horizon, m
 
-  /// Before the first azimuth.
+  SkyBlocks blocks = SkyBlocks().set();  ///< whose receivers walk
+
+  /// Before the first azimuth: of all blocks.
   void clear();
 };
 

@@ -258,6 +258,7 @@ template <class SliceOf>
 void for_receivers(const WalkTile& tile, const AzimuthTable& azimuth, SkySums& sums, SliceOf&& slice_of) {
   for (int i = 0; i < tile.rows; ++i) {
     for (int j = 0; j < tile.columns; ++j) {
+      if (!sums.blocks[sky_block(i, j)]) continue;
       const auto at = static_cast<std::size_t>(i * WalkTile::kSide + j);
       const float tangent = tile.slope_x[at] * azimuth.world_x + tile.slope_y[at] * azimuth.world_y;
       const float n_z = tile.normal_z[at];
@@ -285,6 +286,7 @@ void SkySums::clear() {
   for (Values* sums : {&sky, &full, &solid}) sums->fill(0);
   if (wanted.first) first.fill({});
   if (wanted.second) second.fill({});
+  blocks.set();
 }
 
 void walk_sky_scalar(const WalkTile& tile, const AzimuthTable& azimuth, const FarView& far, SkySums& sums) {

@@ -90,12 +90,15 @@ HWY_INLINE void add_slices(const WalkTile& tile, const AzimuthTable& azimuth, co
   }
 }
 
-/// Calls work(walk, bunch) for all receivers of the tile.
+/// Calls work(walk, bunch) for the receivers of the tile that walk.
 template <class Work>
-HWY_INLINE void for_bunches(const WalkTile& tile, const AzimuthTable& azimuth, Work&& work) {
+HWY_INLINE void for_bunches(const WalkTile& tile, const AzimuthTable& azimuth, const SkyBlocks& blocks,
+                            Work&& work) {
+  static_assert(kBunch == kSkyBlockRows && hn::MaxLanes(kF) <= kSkyBlockColumns);
   const LaneWalk walk(tile, azimuth);
   for (int row = 0; row < tile.rows; row += static_cast<int>(kBunch)) {
     for (int column = 0; column < tile.columns; column += static_cast<int>(hn::Lanes(kF))) {
+      if (!blocks[sky_block(row, column)]) continue;
       Bunch bunch = walk.begin(row, column);
       work(walk, bunch);
     }
@@ -105,7 +108,7 @@ HWY_INLINE void for_bunches(const WalkTile& tile, const AzimuthTable& azimuth, W
 /// Likewise, and adds what lies above the horizons that look(walk, bunch) finds.
 template <class Look>
 HWY_INLINE void add_above(const WalkTile& tile, const AzimuthTable& azimuth, SkySums& sums, Look&& look) {
-  for_bunches(tile, azimuth, [&](const LaneWalk& walk, Bunch& bunch) HWY_ATTR {
+  for_bunches(tile, azimuth, sums.blocks, [&](const LaneWalk& walk, Bunch& bunch) HWY_ATTR {
     look(walk, bunch);
     for (std::size_t v = 0; v < kBunch; ++v) {
       const std::size_t at = bunch.at(v);
@@ -204,7 +207,7 @@ HWY_INLINE SlopePair slopes_inside(const Stretch& stretch, VF m, VF seen, const 
 
 HWY_INLINE void walk_chain(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach,
                            SkySums& sums) {
-  for_bunches(tile, azimuth, [&](const LaneWalk& walk, Bunch& bunch) HWY_ATTR {
+  for_bunches(tile, azimuth, sums.blocks, [&](const LaneWalk& walk, Bunch& bunch) HWY_ATTR {
     const VF zero = hn::Zero(kF);
     std::array<VF, kBunch> n_z, c;
     std::array<SliceSums, kBunch> open, above;

@@ -107,7 +107,7 @@ TEST_CASE("bent normals and harmonics at the default error against 65536 rays", 
   const double degrees = std::sqrt(angle_squares / kReceivers);
   const double relative = std::sqrt(squares / kReceivers) / open;
   INFO(name << ": bent normals " << degrees << " degrees, irradiance " << 100 * relative << " %");
-  // discretisation: what the issue of 0.002 in A leaves, with the rays' own 0.02 degrees
+  // discretisation: what an RMSE of 0.002 in A leaves, with the rays' own 0.02 degrees
   CHECK(degrees < 0.3);
   CHECK(relative < 0.005);
 }

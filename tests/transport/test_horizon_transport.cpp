@@ -17,7 +17,13 @@ namespace heightlight {
 namespace {
 
 /// Cheap walks, and one receiver's links in `stride` a side.
-HorizonPlan cheap_plan(int stride = 1) { return {{16, 16, 0.3F}, {12, 8, 0.3F}, stride}; }
+HorizonPlan cheap_plan(int stride = 1) {
+  HorizonPlan plan{{16, 16, 0.3F}, {12, 8, 0.3F}};
+  plan.lattice_stride = stride;
+  plan.lattice_links = plan.links;
+  plan.own_share = stride > 1 ? 0 : 1;
+  return plan;
+}
 
 /// Of order 1, with a period of the map's size.
 TexelVector smooth_field(const Surface& surface) {
