@@ -9,12 +9,12 @@ set datafile separator comma
 set datafile columnheaders
 
 # gnuplot splits quoted fields at commas: they go.
-rows = "< sed 's/, / /' '".table."'"
+rows = "< sed 's/, / /g' '".table."'"
 array methods[6] = ['Embree cosine density', 'horizon walk fineness 8', 'our rays', 'horizon walk fineness 16', \
-                    'horizon walk planned', 'horizon walk fineness 24']
+                    'horizon walk planned', 'horizon walk fineness 16 sparse']
 array titles[6] = ['Embree 3, its best mode', 'horizon walk, fineness 8', 'own rays', \
                    'horizon walk, fineness 16', 'horizon walk, planned for an error', \
-                   'horizon walk, fineness 24']
+                   'horizon walk, fineness 16, sparse']
 # Okabe and Ito's colours, which the colour-blind tell apart.
 set linetype 1 linecolor rgb '#000000' pointtype 5 linewidth 1.5 pointsize 0.7
 set linetype 2 linecolor rgb '#56b4e9' pointtype 9 linewidth 1.5 pointsize 0.8
