@@ -13,15 +13,16 @@ constexpr double kPlanAim = 0.9;
 /// The albedo up to which a plan's error is meant.
 constexpr double kPlanAlbedo = 0.8;
 
-/// Cost of a walk of the sky: K azimuths, each in units of its fineness ν. Measured 4.3, 5.4, 7.1, 9.1 and
-/// 11.5 ns for ν of 8, 12, 16, 24 and 32.
+/// What a walk of the sky costs, K (5 + ν): an azimuth took 4.3, 5.4, 7.1, 9.1 and 11.5 ns for ν of 8, 12,
+/// 16, 24 and 32.
 double walk_cost(const WalkOptions& options);
 
 /// The sky's part of a plan.
 HorizonPlan plan_sky(HorizonPilot& pilot, const HorizonGoal& goal);
 
 /// The links' part, once the direct light is known, and the links themselves. Lattices of receivers are tried
-/// first, the coarsest at first: they cost little, and where their error is harmless they are what is kept.
+/// first, the coarsest at first: they cost little. Where their error is harmless, for all receivers or for
+/// those that see little of the surface, they are kept; the others get links of their own.
 std::unique_ptr<SeenLight> plan_links(HorizonPilot& pilot, const HeightMips& mips, const TexelVector& direct,
                                       const HorizonGoal& goal, const HorizonOptions& options,
                                       HorizonPlan& plan);
