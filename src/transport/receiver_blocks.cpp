@@ -51,7 +51,8 @@ std::vector<BlockSet> all_blocks(const Surface& surface) {
 double block_share(const Surface& surface, const std::vector<BlockSet>& blocks) {
   double count = 0;
   for (const BlockSet& set : blocks) count += static_cast<double>(set.count());
-  return count / (static_cast<double>(surface.height()) * ((surface.width() + kBlock - 1) / kBlock));
+  const int across = (surface.width() + kBlock - 1) / kBlock;
+  return count / (static_cast<double>(surface.height()) * across);
 }
 
 }  // namespace heightlight
