@@ -25,7 +25,7 @@ constexpr int kFewestAzimuths = 4;
 constexpr float kPeakShareStep = 0.15F;
 constexpr float kHighestPeakShare = 0.75F;
 
-double azimuth_cost(int fineness) { return walk_cost({1, fineness}); }
+double azimuth_cost(int fineness) { return 5.0 + fineness; }
 
 /// The fewest azimuths that should leave no more than the error, of a walk whose sampling errs so: the rest,
 /// `tried` at kTriedAzimuths, falls by kAzimuthOrder. More than kManyAzimuths: none of those looked at.
@@ -124,7 +124,9 @@ void choose_sparse(HorizonPilot& pilot, double error, HorizonPlan& plan, double&
 
 }  // namespace
 
-double walk_cost(const WalkOptions& options) { return options.azimuths * (5.0 + options.fineness); }
+double sky_cost(const HorizonPlan& plan) {
+  return plan.sky.azimuths * azimuth_cost(plan.sky.fineness) * (1 + plan.sky_full_share) / 2;
+}
 
 HorizonPlan plan_sky(HorizonPilot& pilot, const HorizonGoal& goal) {
   HorizonPlan plan;
