@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "core/byte_size.h"
-#include "core/parallel.h"
-#include "core/stopwatch.h"
-#include "heightlight/bake.h"
+#include "bake/bake.h"
+#include "base/byte_size.h"
+#include "base/parallel.h"
+#include "base/stopwatch.h"
+#include "files/image_file.h"
 #include "heightlight/error.h"
 #include "heightlight/synth.h"
-#include "io/image_file.h"
 #include "visibility/horizon_sky.h"
 
 namespace heightlight {

@@ -20,13 +20,13 @@
 
 #include "bake/bent_cone.h"
 #include "bake/material.h"
-#include "bake/sky_harmonics.h"
+#include "base/gauss_legendre.h"
+#include "base/hash.h"
+#include "base/parallel.h"
 #include "bench_map.h"
-#include "core/gauss_legendre.h"
-#include "core/hash.h"
-#include "core/parallel.h"
 #include "heightlight/error.h"
 #include "visibility/exact_walk.h"
+#include "visibility/sky_harmonics.h"
 #include "visibility/slice_integrals.h"
 
 namespace heightlight {

@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
-#include "bake/sky_harmonics.h"
+#include "files/image_file.h"
+#include "files/image_read.h"
 #include "heightlight/error.h"
-#include "io/image_file.h"
-#include "io/image_read.h"
+#include "visibility/sky_harmonics.h"
 
 namespace heightlight {
 namespace {

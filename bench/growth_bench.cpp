@@ -20,9 +20,9 @@
 #include <utility>
 #include <vector>
 
+#include "base/parallel.h"
+#include "base/stopwatch.h"
 #include "bench_map.h"
-#include "core/parallel.h"
-#include "core/stopwatch.h"
 #include "heightlight/error.h"
 #include "heightlight/transport.h"
 #include "transport/horizon_plan.h"

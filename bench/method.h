@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/stopwatch.h"
+#include "base/stopwatch.h"
 #include "heightlight/image.h"
 #include "receivers.h"
 

@@ -7,8 +7,8 @@
 #include <limits>
 #include <vector>
 
+#include "base/hash.h"
 #include "bench_map.h"
-#include "core/hash.h"
 #include "embree_mesh.h"
 #include "visibility/ray_caster.h"
 

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/hash.h"
-#include "core/parallel.h"
+#include "base/hash.h"
+#include "base/parallel.h"
 #include "heightlight/surface.h"
 
 namespace heightlight {

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <limits>
 
-#include "core/parallel.h"
+#include "base/parallel.h"
 #include "heightlight/error.h"
 
 namespace heightlight {

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "bake/material.h"
+#include "files/image_file.h"
+#include "files/image_read.h"
 #include "heightlight/error.h"
-#include "io/image_file.h"
-#include "io/image_read.h"
 #include "plot/previews.h"
 
 namespace heightlight {

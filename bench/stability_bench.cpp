@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "core/stopwatch.h"
+#include "base/stopwatch.h"
 #include "heightlight/error.h"
 #include "heightlight/transport.h"
 #include "stability/hard_maps.h"

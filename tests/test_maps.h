@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/hash.h"
+#include "base/hash.h"
 #include "heightlight/heightmap.h"
 #include "heightlight/synth.h"
 

@@ -1,14 +1,11 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <cstddef>
-#include <filesystem>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "heightlight/image.h"
-#include "heightlight/surface.h"
-#include "heightlight/transport.h"
 
 namespace heightlight {
 
@@ -57,17 +54,19 @@ class BinGroups;
 /// for any number of threads.
 class CurveBuilder {
  public:
+  static constexpr std::size_t kBytesPerTexel = 2;
+
   /// `ao` in [0, 1] up to rounding, NaN where missing; 1 ≤ bins ≤ 10000 (UsageError otherwise). At most 2³²
   /// texels.
   CurveBuilder(const Map& ao, AoKind kind, int bins);
 
   /// Adds the next bounce, E_b/π per texel of the map (ρ = 1), finite; whatever stands where AO is missing.
-  void add(const Eigen::Ref<const Eigen::VectorXd>& irradiance);
-  void add(const Eigen::Ref<const Eigen::VectorXf>& irradiance);
+  void add(std::span<const double> irradiance);
+  void add(std::span<const float> irradiance);
 
   /// Sets what all later bounces bring together, Σ E_b/π over b > K.
-  void add_tail(const Eigen::Ref<const Eigen::VectorXd>& irradiance);
-  void add_tail(const Eigen::Ref<const Eigen::VectorXf>& irradiance);
+  void add_tail(std::span<const double> irradiance);
+  void add_tail(std::span<const float> irradiance);
 
   const BounceCurves& curves() const { return curves_; }
 
@@ -75,36 +74,5 @@ class CurveBuilder {
   BounceCurves curves_;
   std::shared_ptr<const BinGroups> groups_;
 };
-
-/// The first line of `curves.csv`.
-constexpr const char* kCurvesHeader = "ao_kind,bin,ao_lo,ao_hi,ao_mean,count,bounce,mean,stddev,p05,p50,p95";
-
-/// Writes `curves.csv`: one line per kind, bin and bounce, in this order,
-/// both kinds below each other, numbers with as many digits as a double needs. Throws Error naming the file.
-void write_curves_csv(const std::filesystem::path& path, const std::vector<BounceCurves>& curves);
-
-/// Reads such a file back: the columns by their names, in any order. The tail, which it does not hold, is
-/// what the means leave of 1. Throws Error naming the file, and the line, for a column that is missing, a
-/// number that is none or not finite, a kind of AO that is unknown or comes again after the other, bins out
-/// of order or without texels, bounces that don't follow on each other or of which bins have unlike numbers.
-std::vector<BounceCurves> read_curves_csv(const std::filesystem::path& path);
-
-/// One relief of a study of the height amplitude.
-struct ReliefCurves {
-  double relief_share = 0;  ///< peak-to-valley height over the map's width
-  BounceCurves curves;      ///< over α
-};
-
-/// How the study walks: fine enough that the error does not show among the curves.
-const HorizonPlan& study_plan();
-
-/// The notes' study of the height amplitude (file 004): curves over α of the map with its heights scaled so
-/// that its relief is each share of its width (spacing × columns). Runs on a copy of at most `largest_side`
-/// texels a side, which keeps the map's extent and boundary, since only the curves' shape is asked: every
-/// n-th sample, or as near to it as a side that n does not divide allows. A level map stays level. Throws
-/// UsageError for a share that is not positive and finite, largest_side < 1 or bounces < 0, and what
-/// build_form_factors and CurveBuilder throw.
-std::vector<ReliefCurves> study_reliefs(const Heightmap& map, const std::vector<double>& relief_shares,
-                                        int largest_side, int bounces, int bins, bool quiet);
 
 }  // namespace heightlight

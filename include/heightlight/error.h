@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace heightlight {
 
@@ -9,11 +10,29 @@ namespace heightlight {
 /// names what it is about and what is wrong. The command line prints it and exits with 1.
 struct Error : std::runtime_error {
   using std::runtime_error::runtime_error;
+
+  /// With a quantity that would help, and perhaps a value for it: "memory 8M", "channel".
+  Error(const std::string& message, std::string help)
+      : std::runtime_error(message), remedy(std::move(help)) {}
+
+  std::string remedy;  ///< empty where none is known; the command line names its option
 };
 
 /// The request itself makes no sense (an albedo of 2, zero rays). The command line exits with 2.
 struct UsageError : Error {
-  using Error::Error;
+  explicit UsageError(const std::string& message) : Error(message) {}
+
+  /// "azimuths 7: must be even": what is wrong with the quantity of that name (letters and _). The command
+  /// line, whose options have such names, puts dashes before it.
+  UsageError(const std::string& name, const std::string& value, const std::string& fault)
+      : Error(name + (value.empty() ? "" : " " + value) + ": " + fault), quantity(name) {}
+
+  std::string quantity;  ///< empty where the message names none at its beginning
+};
+
+/// The memory allowed does not hold what was asked for. Nothing of it has been taken.
+struct MemoryError : Error {
+  explicit MemoryError(const std::string& message) : Error(message, "memory") {}
 };
 
 /// A result could not be written: a full disk, an unwritable folder, something else in its place.
@@ -21,10 +40,10 @@ struct OutputError : Error {
   using Error::Error;
 };
 
-/// The user asked to stop (SIGINT, SIGTERM). The command line exits with 128 + signal.
-struct Interrupted : Error {
-  explicit Interrupted(int signal_number) : Error("interrupted"), signal(signal_number) {}
-  int signal;
+/// Whoever watches the work wanted it to end (Watch::stopped). The command line, to which signals say so,
+/// exits with 128 + signal.
+struct Cancelled : Error {
+  Cancelled() : Error("interrupted") {}
 };
 
 }  // namespace heightlight

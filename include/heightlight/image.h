@@ -9,6 +9,8 @@ namespace heightlight {
 /// A rectangle of samples, row-major; row 0 is the image's top. `width` and `height` count samples.
 template <class T>
 struct Image {
+  using value_type = T;
+
   int width = 0;
   int height = 0;
   std::vector<T> values;
@@ -29,7 +31,20 @@ struct Image {
   friend bool operator==(const Image&, const Image&) = default;
 };
 
+/// A vector in world axes: x right, y up the image, z out of it.
+struct Vector3 {
+  float x = 0;
+  float y = 0;
+  float z = 0;
+
+  friend bool operator==(const Vector3&, const Vector3&) = default;
+};
+
 /// One value per texel; NaN marks a texel without an answer (a missing sample).
 using Map = Image<float>;
+
+/// One value per texel in row-major order, in the precision that sums are made with; 0 where the sample is
+/// missing.
+using TexelVector = std::vector<double>;
 
 }  // namespace heightlight

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -61,9 +60,9 @@ double farthest_reach(const DepthBuffer& depth);
 
 /// What a screen-space method says of every texel; NaN where the sample is missing.
 struct ScreenSpaceView {
-  Map sky_view_factor;    ///< its word for A, [0, 1]: what a renderer would multiply irradiance by
-  Map ambient_occlusion;  ///< its word for α; 0 × 0 where it has none
-  Image<Eigen::Vector3f> bent_normal;  ///< unit, cosine weighted, world axes; 0 × 0 where there is none
+  Map sky_view_factor;         ///< its word for A, [0, 1]: what a renderer would multiply irradiance by
+  Map ambient_occlusion;       ///< its word for α; 0 × 0 where it has none
+  Image<Vector3> bent_normal;  ///< unit, cosine weighted, world axes; 0 × 0 where there is none
   Map half_sky;  ///< E/π under a sky that shines only from y > 0 (the image's top); 0 × 0 where there is none
   Map seen;      ///< n, the mean sky view factor of what a texel sees, [0, 1]; 0 × 0 where there is none
   std::vector<Map> totals;       ///< E/π with what the method knows of bounces, per albedo; may be empty

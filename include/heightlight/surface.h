@@ -1,7 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
-
 #include "heightlight/heightmap.h"
 
 namespace heightlight {
@@ -14,8 +12,8 @@ namespace heightlight {
 /// texels.
 struct Surface {
   Heightmap map;
-  Image<Eigen::Vector3f> normal;  ///< unit, z > 0; NaN where the sample is missing
-  float highest = 0;              ///< of map.height
+  Image<Vector3> normal;  ///< unit, z > 0; NaN where the sample is missing
+  float highest = 0;      ///< of map.height
   float lowest = 0;
 
   int width() const { return map.height.width; }

@@ -1,26 +1,21 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "heightlight/image.h"
 #include "heightlight/surface.h"
 #include "heightlight/visibility.h"
+#include "heightlight/watch.h"
 
 namespace heightlight {
 
-/// One value per texel in row-major order, in the precision that sums are made with; 0 where the sample is
-/// missing.
-using TexelVector = Eigen::VectorXd;
-
 /// Diffuse reflectance in [0, 1]: one channel where it is grey, else R, G, B.
 struct Albedo {
-  std::vector<double> constant;      ///< per channel; empty where it varies over the map
-  std::vector<TexelVector> varying;  ///< per channel; empty where it is constant
+  std::vector<double> constant = {};      ///< per channel; empty where it varies over the map
+  std::vector<TexelVector> varying = {};  ///< per channel; empty where it is constant
 
   std::size_t channels() const { return constant.size() + varying.size(); }
 };
@@ -87,50 +82,43 @@ struct FormFactors : Transport {
   std::uint64_t bytes() const override;
 };
 
-/// What finding the form factors may use, and whom to tell how far it is.
-struct FormFactorOptions {
-  RayOptions rays;
-  std::uint64_t memory_limit = ~0ULL;  ///< bytes for the links
-  bool quiet = true;                   ///< no progress bar
-  std::string map_name = "the map";    ///< for messages
+/// What finding links may use, and who watches it.
+struct LinkLimits {
+  std::uint64_t memory = ~0ULL;  ///< bytes that links may take
+  Watch watch = {};              ///< of finding them; gathers ask it whether to go on
 };
 
 /// Casts rays from every receiver and stores what they see. The bytes are estimated from a sample of
-/// receivers first. Throws Error when they pass `memory_limit`, UsageError for a bad number of rays.
-FormFactors build_form_factors(const Surface& surface, const FormFactorOptions& options);
+/// receivers first. Throws MemoryError when they pass `limits.memory`, UsageError for a bad number of rays.
+FormFactors build_form_factors(const Surface& surface, const RayOptions& rays, const LinkLimits& limits);
 
 /// Walks exactly along `azimuths` azimuths from every receiver (2 … 65536, even), and stores what they see.
-/// `options.rays` is not used. Throws as build_form_factors does.
-FormFactors build_exact_form_factors(const Surface& surface, int azimuths, const FormFactorOptions& options);
+/// Throws as build_form_factors does.
+FormFactors build_exact_form_factors(const Surface& surface, int azimuths, const LinkLimits& limits);
 
-/// How horizon walks find the sky's shares, and the links. Links bear fewer azimuths: they tell only how what
-/// is seen of the surface is divided up, not how much of it there is. Where that changes slowly, links of a
+/// How horizon walks find links. They bear fewer azimuths than the sky does, since they tell only how what is
+/// seen of the surface is divided up, not how much of it there is. Where that changes slowly, links of a
 /// lattice of receivers, every stride-th a side, are enough.
+struct LinkPlan {
+  WalkOptions walk = {};   ///< of receivers that have links of their own; where none has, the lattice's
+  int lattice_stride = 1;  ///< of the lattice that tells others what they see; 1: there is none
+  WalkOptions lattice_walk = {};  ///< its receivers' links
+  double own_from = 0;            ///< RMS of 1 − A in 16 receivers of a row from which they have their own
+  double own_share = 1;           ///< of blocks of 16 receivers, those that do; 0: none does
+  double error = 0;               ///< RMSE of the total at ρ = 0.8 expected from the links alone
+};
+
+/// Both walks of one map.
 struct HorizonPlan {
-  WalkOptions sky;
-  WalkOptions links;         ///< of receivers that have their own; where none has, the lattice's
-  double sky_full_from = 0;  ///< RMS of 1 − A in 4 × 16 receivers from which they walk all azimuths; others
-                             ///< walk every other one
-  double sky_full_share = 1;       ///< of the blocks, those that walk all, by the pilot
-  int lattice_stride = 1;          ///< of the lattice that tells others what they see; 1: there is none
-  WalkOptions lattice_links = {};  ///< its receivers' links
-  double own_links_from = 0;       ///< RMS of 1 − A in 16 receivers of a row from which they have their own
-  double own_share = 1;            ///< of blocks of 16 receivers, those that do; 0: none does
-  double sky_error = 0;            ///< RMSE of A expected, from the pilot; 0 where there was none
-  double link_error = 0;           ///< RMSE of the total at ρ = 0.8 expected from the links alone
+  SkyPlan sky = {};
+  LinkPlan links = {};
 };
 
-/// What walking may use.
-struct HorizonOptions {
-  std::uint64_t memory_limit =
-      ~0ULL;          ///< bytes for links; tiles for which none is left walk again at each gather
-  bool quiet = true;  ///< no progress bar
-};
-
-/// The operator by horizon walks as planned. `surface` must outlive it. Its gathers are not to be called from
-/// two threads at once. Throws UsageError for a number of azimuths outside its range.
+/// The operator by horizon walks as planned. `surface` must outlive it. Tiles whose links the memory does not
+/// hold walk again at each gather. Its gathers are not to be called from two threads at once. Throws
+/// UsageError for a number of azimuths outside its range.
 std::unique_ptr<Transport> build_horizon_transport(const Surface& surface, const HorizonPlan& plan,
-                                                   const HorizonOptions& options);
+                                                   const LinkLimits& limits);
 
 struct PlannedTransport {
   HorizonPlan plan;
@@ -149,7 +137,7 @@ struct HorizonGoal {
 
 /// Chooses a plan by trying ways of walking on a sample of receivers against exact walks; then builds.
 PlannedTransport plan_horizon_transport(const Surface& surface, const HorizonGoal& goal,
-                                        const HorizonOptions& options, const SkyWanted& wanted = {});
+                                        const LinkLimits& limits, const SkyWanted& wanted = {});
 
 /// What a finished solution errs by, found on a few hundred receivers by exact walks (which share no code
 /// with the fast ones): A against their sky, the total against one exact gather of the same light. What the
@@ -161,9 +149,19 @@ struct HorizonCheck {
   double total_rmse = 0;  ///< of E/π
 };
 
-/// `total` is E/π at the albedo per texel. `seed` picks the receivers.
-HorizonCheck check_by_exact_walks(const Surface& surface, const Transport& transport,
-                                  const TexelVector& total, const TexelVector& albedo, std::uint64_t seed);
+/// What is checked: a total, and the surface and the light that it is of.
+struct CheckedTotal {
+  const TexelVector& total;              ///< E/π of all bounces, per texel
+  double albedo = 0;                     ///< where it is the same everywhere
+  const TexelVector* varying = nullptr;  ///< the albedo per texel, where it is not
+  const TexelVector* direct = nullptr;   ///< E₀/π of light of one's own, where it is not the sky's
+};
+
+/// Checks totals at the same receivers, one figure each. `sky` is A per texel, as found; `seed` picks the
+/// receivers.
+std::vector<HorizonCheck> check_by_exact_walks(const Surface& surface, const TexelVector& sky,
+                                               const std::vector<CheckedTotal>& totals, std::uint64_t seed,
+                                               const Watch& watch = {});
 
 /// The solution x of x = source + F (ρ x), to a residual of Transport::solver_tolerance of the source's norm,
 /// by BiCGSTAB; `guess` is where it starts. `albedo` is ρ per texel, in [0, 1].
@@ -173,7 +171,7 @@ struct Equilibrium {
   double residual = 0;  ///< |source + F ρ x − x| / |source|
 };
 Equilibrium solve_equilibrium(const Transport& transport, const TexelVector& source,
-                              const TexelVector& albedo, const TexelVector& guess, bool quiet = true);
+                              const TexelVector& albedo, const TexelVector& guess, const Watch& watch = {});
 
 /// Bounces at ρ = 1, from which those at any constant albedo follow: E_b(ρ) = ρ^b E_b. All values are E/π.
 struct BounceSeries {
@@ -189,11 +187,11 @@ struct BounceSeries {
 /// Rayleigh quotient, under which F is symmetric.
 BounceSeries bounce(const Transport& transport, const Surface& surface, int bounces,
                     const std::vector<double>& albedos,
-                    const std::function<void(int, const TexelVector&)>& visit, bool quiet);
+                    const std::function<void(int, const TexelVector&)>& visit, const Watch& watch = {});
 
 /// What all bounces after the K-th bring at constant albedo ρ: ρ^{K+1} t, with t = E_{K+1} + ρ F t.
 Equilibrium solve_tail(const Transport& transport, const BounceSeries& series, double albedo,
-                       bool quiet = true);
+                       const Watch& watch = {});
 
 /// The same without solving, from conservation. At ρ = 1 all bounces sum to 1, so that T = 1 − (E₀ + … + E_K)
 /// is left. Taking the bounces from the K-th on to fall by one ratio q per texel, which E_K and T fix (E_K
@@ -218,7 +216,7 @@ struct TotalIrradiance {
 /// ends with the bounce that is enough for it, so that it is the same, to the last bit, whatever others are
 /// asked for beside it.
 TotalIrradiance solve_totals(const Transport& transport, const std::vector<double>& albedos, double tolerance,
-                             bool quiet = true);
+                             const Watch& watch = {});
 
 /// Values as a map, NaN where the surface has no receiver.
 Map to_map(const TexelVector& values, const Surface& surface);

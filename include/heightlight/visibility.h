@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -16,7 +15,7 @@ struct RayOptions {
   std::uint64_t seed = 1;  ///< of the per-texel rotations
 };
 
-/// Throws UsageError, naming `--rays`, unless the number of rays is in its range.
+/// Throws UsageError unless the number of rays is in its range.
 void check_ray_options(const RayOptions& options);
 
 /// How a horizon walk looks around; each is a bargain between time and error.
@@ -27,8 +26,18 @@ struct WalkOptions {
       0.3F;  ///< of a block's highest sample in the height that stands for it; the rest is its mean
 };
 
-/// Throws UsageError, naming `--azimuths`, unless the number is even and in its range.
+/// Throws UsageError unless the number is even and in its range.
 void check_azimuths(int azimuths);
+
+/// How horizon walks find the sky's shares. Quadrature errs most where much of the surface is seen, so that
+/// every other azimuth will do elsewhere.
+struct SkyPlan {
+  WalkOptions walk = {};
+  double full_from = 0;  ///< > 0: RMS of 1 − A, by every other azimuth, in a block of 4 × 16 receivers from
+                         ///< which all azimuths are walked; their number is a multiple of 4
+  double full_share = 1;  ///< of the blocks, those that walk all azimuths, by the pilot
+  double error = 0;       ///< RMSE of A expected, from the pilot; 0 where there was none
+};
 
 /// What horizon walks are to find of the sky beside its shares α and A.
 struct SkyWanted {
@@ -40,9 +49,12 @@ struct SkyWanted {
 /// and 0 toward the surface, θ counts from the normal. A is that of f = 1. Empty unless wanted; NaN where the
 /// sample is missing.
 struct SkyMoments {
-  Image<Eigen::Vector3f> first;        ///< of ω
+  Image<Vector3> first;                ///< of ω
   Image<std::array<float, 5>> second;  ///< of x² − y², xy, z², xz, yz
 };
+
+/// Unit vector along a first moment; the receiver's normal where nothing of the sky is seen.
+Vector3 bent_normal(const Vector3& first_moment, const Vector3& normal);
 
 /// How what is near a receiver counts for more than what is far: a direction in which the surface stands at
 /// distance d counts as open by the share μ(d) (file 002, section 2), which is 1 from the reach D on.

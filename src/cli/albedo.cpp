@@ -7,9 +7,9 @@
 #include <optional>
 #include <type_traits>
 
+#include "files/image_read.h"
+#include "files/input_file.h"
 #include "heightlight/error.h"
-#include "io/image_read.h"
-#include "io/input_file.h"
 
 namespace heightlight {
 namespace {
@@ -49,7 +49,7 @@ std::optional<std::vector<double>> parse_constants(const std::string& text) {
 std::vector<double> check_constants(const std::string& text, std::vector<double> values) {
   const bool in_range = std::all_of(values.begin(), values.end(), [](double v) { return v >= 0 && v <= 1; });
   if (!in_range || (values.size() != 1 && values.size() != 3)) {
-    throw UsageError("--albedo " + text + ": must be one number, or three (R,G,B), each in [0, 1]");
+    throw UsageError("albedo", text, "must be one number, or three (R,G,B), each in [0, 1]");
   }
   if (std::all_of(values.begin(), values.end(), [&](double v) { return v == values[0]; })) values.resize(1);
   return values;
@@ -61,9 +61,9 @@ TexelVector decode(const StoredImage& image, std::size_t channel) {
   return std::visit(
       [&](const auto& samples) {
         using Sample = typename std::decay_t<decltype(samples)>::value_type;
-        TexelVector values(static_cast<Eigen::Index>(samples.size() / stride));
-        for (Eigen::Index i = 0; i < values.size(); ++i) {
-          const double stored = static_cast<double>(samples[static_cast<std::size_t>(i) * stride + channel]);
+        TexelVector values(samples.size() / stride);
+        for (std::size_t i = 0; i < values.size(); ++i) {
+          const double stored = static_cast<double>(samples[i * stride + channel]);
           values[i] = std::is_integral_v<Sample>
                           ? srgb_to_linear(stored / static_cast<double>(std::numeric_limits<Sample>::max()))
                           : stored;
@@ -87,7 +87,8 @@ Albedo read_albedo_file(const std::string& path, const Heightmap& map, std::uint
   for (std::size_t channel = 0; channel < channels; ++channel) {
     albedo.varying.push_back(decode(image, channel));
     const TexelVector& values = albedo.varying.back();
-    if (!(values.minCoeff() >= 0 && values.maxCoeff() <= 1) || values.hasNaN()) {
+    const auto in_range = [](double value) { return value >= 0 && value <= 1; };
+    if (!std::all_of(values.begin(), values.end(), in_range)) {
       throw file_error(path, "the albedo has samples outside [0, 1]");
     }
   }
@@ -100,8 +101,10 @@ Albedo read_albedo_file(const std::string& path, const Heightmap& map, std::uint
 }  // namespace
 
 Albedo read_albedo(const std::string& text, const Heightmap& map, std::uint64_t memory_limit) {
-  if (auto colour = parse_picture_colour(text)) return {check_constants(text, std::move(*colour)), {}};
-  if (auto constants = parse_constants(text)) return {check_constants(text, std::move(*constants)), {}};
+  if (auto colour = parse_picture_colour(text))
+    return {.constant = check_constants(text, std::move(*colour))};
+  if (auto constants = parse_constants(text))
+    return {.constant = check_constants(text, std::move(*constants))};
   return read_albedo_file(text, map, memory_limit);
 }
 

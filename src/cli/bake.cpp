@@ -1,4 +1,6 @@
-#include "heightlight/bake.h"
+#include "bake/bake.h"
+
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -8,12 +10,14 @@
 #include <sstream>
 #include <system_error>
 
+#include "base/progress.h"
 #include "cli/albedo.h"
 #include "cli/bake_inputs.h"
 #include "cli/commands.h"
 #include "cli/map_options.h"
-#include "core/interrupt.h"
-#include "core/progress.h"
+#include "cli/name_errors.h"
+#include "cli/terminal_watch.h"
+#include "cli/user_message.h"
 #include "heightlight/error.h"
 
 namespace heightlight {
@@ -48,7 +52,7 @@ MaterialMap parse_map(const std::string& option, const std::string& name) {
     if (name == entry.name) return entry.map;
     known += std::string(known.empty() ? "" : ", ") + entry.name;
   }
-  throw UsageError(option + ": '" + name + "' is no map (known: " + known + ")");
+  throw UsageError(option, "", "'" + name + "' is no map (known: " + known + ")");
 }
 
 /// "ao", "bent-normal.x", "sh.8", or a constant in [0, 1].
@@ -56,11 +60,11 @@ PackedChannel parse_source(const std::string& text) {
   char* end = nullptr;
   const double constant = std::strtod(text.c_str(), &end);
   if (!text.empty() && *end == '\0') {
-    if (!(constant >= 0 && constant <= 1)) throw UsageError("--pack: " + text + " is not in [0, 1]");
-    return {std::nullopt, 0, constant};
+    if (!(constant >= 0 && constant <= 1)) throw UsageError("pack", "", text + " is not in [0, 1]");
+    return {.map = std::nullopt, .constant = constant};
   }
   const std::size_t point = text.find('.');
-  PackedChannel channel{parse_map("--pack", text.substr(0, point)), 0, 0};
+  PackedChannel channel{.map = parse_map("pack", text.substr(0, point))};
   if (point == std::string::npos) return channel;
   const std::string component = text.substr(point + 1);
   const std::size_t letter = std::string("xyzwrgba").find(component);
@@ -70,8 +74,8 @@ PackedChannel parse_source(const std::string& text) {
              component.find_first_not_of("0123456789") == std::string::npos) {
     channel.component = std::stoi(component);
   } else {
-    throw UsageError("--pack: '" + component +
-                     "' names no component (x, y, z, w, r, g, b, a, or a number from 0)");
+    throw UsageError("pack", "",
+                     "'" + component + "' names no component (x, y, z, w, r, g, b, a, or a number from 0)");
   }
   return channel;
 }
@@ -84,8 +88,7 @@ std::vector<PackedChannel> parse_packed(const std::string& text) {
   for (const std::string& part : split_at_commas(text)) {
     const std::size_t channel = part.size() > 2 && part[1] == '=' ? letters.find(part[0]) : std::string::npos;
     if (channel == std::string::npos || given[channel]) {
-      throw UsageError("--pack " + text +
-                       ": write it like R=ao,G=multibounce,B=normal.z, each of R, G, B, A once");
+      throw UsageError("pack", text, "write it like R=ao,G=multibounce,B=normal.z, each of R, G, B, A once");
     }
     given[channel] = parse_source(part.substr(2));
     count = std::max(count, channel + 1);
@@ -102,8 +105,7 @@ double parse_distance(const std::string& text, const Heightmap& map) {
   const double value = std::strtod(text.c_str(), &end);
   const std::string unit = end;
   if (end == text.c_str() || (!unit.empty() && unit != "%")) {
-    throw UsageError("--max-distance " + text +
-                     ": write a length in world units, or a share of the width (5%)");
+    throw UsageError("max_distance", text, "write a length in world units, or a share of the width (5%)");
   }
   return unit.empty() ? value : value / 100 * map.spacing.x * map.height.width;
 }
@@ -123,7 +125,7 @@ void parse_depth(const std::string& text, BakeOptions& options) {
 void parse_options(BakeCommand& command) {
   BakeOptions& options = command.options;
   for (const std::string& name : split_at_commas(command.maps)) {
-    options.maps.push_back(parse_map("--maps", name));
+    options.maps.push_back(parse_map("maps", name));
   }
   options.packed = parse_packed(command.packed);
   if (options.maps.empty() && options.packed.empty()) {
@@ -133,7 +135,7 @@ void parse_options(BakeCommand& command) {
   options.memory = command.run.memory;
   options.seed = command.run.seed;
   if (command.falloff != "none" && command.max_distance.empty()) {
-    throw UsageError("--falloff: needs --max-distance, where it ends");
+    throw UsageError("falloff", "", "needs --max-distance, where it ends");
   }
   BakeOptions any_albedo = options;  // how many channels it has, a file may have to tell
   any_albedo.albedo.constant.resize(3);
@@ -143,16 +145,19 @@ void parse_options(BakeCommand& command) {
 /// Of one map. Returns its warnings.
 std::vector<std::string> bake_file(const BakeCommand& command, const BakeInput& input, bool quiet) {
   BakeOptions options = command.options;
-  options.quiet = quiet;
+  options.watch = terminal_watch(quiet);
   LoadedHeightmap loaded = load_heightmap(input.path, command.load, command.run.memory);
   options.albedo = read_albedo(command.albedo, loaded.map, command.run.memory);
   if (!command.max_distance.empty()) {
     const Falloff falloff = command.falloff == "linear" ? Falloff::linear
                             : command.falloff == "sqrt" ? Falloff::root
                                                         : Falloff::none;
-    options.reach = Reach{parse_distance(command.max_distance, loaded.map), falloff};
+    options.reach = Reach{.distance = parse_distance(command.max_distance, loaded.map), .falloff = falloff};
   }
-  return bake_material(std::move(loaded), input.path, options, command.folder, input.name);
+  const std::vector<std::filesystem::path> inputs{input.path, command.albedo};  // a number names no file
+  return name_errors(input.path, [&] {
+    return bake_material(std::move(loaded), inputs, options, command.folder, input.name);
+  });
 }
 
 bool is_baked(const BakeCommand& command, const BakeInput& input) {
@@ -179,14 +184,14 @@ void bake_one(const BakeCommand& command, const BakeInput& input, bool only_one,
   ++tally.baked;
   if (command.run.quiet) return;
   for (const std::string& warning : warnings) {
-    std::fprintf(stderr, "heightlight: warning: %s: %s\n", input.path.c_str(), warning.c_str());
+    fmt::print(stderr, "heightlight: warning: {}: {}\n", input.path.string(), warning);
   }
 }
 
 void report(const BakeCommand& command, const Tally& tally) {
   if (command.run.quiet) return;
-  std::printf("%zu baked, %zu skipped, %zu failed; results in %s\n", tally.baked, tally.skipped,
-              tally.faults.size(), command.folder.c_str());
+  fmt::print("{} baked, {} skipped, {} failed; results in {}\n", tally.baked, tally.skipped,
+             tally.faults.size(), command.folder.string());
 }
 
 void bake(BakeCommand& command) {
@@ -196,22 +201,23 @@ void bake(BakeCommand& command) {
   const bool only_one = inputs.size() == 1;
   Tally tally;
   {
-    Progress progress("bake", static_cast<std::int64_t>(inputs.size()), command.run.quiet || only_one);
+    const Watch watch = terminal_watch(command.run.quiet || only_one);
+    Progress progress("bake", static_cast<std::int64_t>(inputs.size()), watch);
     for (const BakeInput& input : inputs) {
       try {
         bake_one(command, input, only_one, tally);
-      } catch (const Interrupted&) {
+      } catch (const Cancelled&) {
         throw;
       } catch (const Error& error) {
         if (only_one) throw;
-        tally.faults.push_back(error.what());
+        tally.faults.push_back(user_message(error));
       }
       progress.add(1);
     }
   }
   report(command, tally);
   if (tally.faults.empty()) return;
-  for (const std::string& fault : tally.faults) std::fprintf(stderr, "heightlight: %s\n", fault.c_str());
+  for (const std::string& fault : tally.faults) fmt::print(stderr, "heightlight: {}\n", fault);
   throw Error(std::to_string(tally.faults.size()) + " of " + std::to_string(inputs.size()) +
               " maps could not be baked");
 }

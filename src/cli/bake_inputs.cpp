@@ -8,8 +8,8 @@
 #include <set>
 #include <system_error>
 
+#include "files/input_file.h"
 #include "heightlight/error.h"
-#include "io/input_file.h"
 
 namespace heightlight {
 namespace {

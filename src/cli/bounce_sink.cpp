@@ -1,10 +1,7 @@
 #include "cli/bounce_sink.h"
 
-#include <cstdio>
-
 #include "cli/simulation_files.h"
-#include "core/stopwatch.h"
-#include "heightlight/models.h"
+#include "files/saved_run.h"
 
 namespace heightlight {
 namespace {
@@ -13,33 +10,31 @@ constexpr int kPreviewedBounces = 6;
 
 }  // namespace
 
-BounceSink::BounceSink(const Transport& transport, const Surface& surface, const SimulateOptions& options,
-                       StagedFolder& folder)
-    : surface_(surface),
-      options_(options),
-      folder_(folder),
-      sky_view_factor_(transport.sky_view_factor),
-      alpha_(transport.ambient_occlusion, AoKind::ambient_occlusion, options.bins),
-      sky_(transport.sky_view_factor, AoKind::sky_view_factor, options.bins) {
-  seen_.expected = expected_seen(transport.sky_view_factor, surface).value;
+SimulationSink::SimulationSink(const Surface& surface, const SimulateOptions& options, StagedFolder& folder)
+    : surface_(surface), options_(options), folder_(folder) {}
+
+void SimulationSink::take_sky(const Map& ambient_occlusion, const Map& sky_view_factor) {
+  alpha_.emplace(ambient_occlusion, AoKind::ambient_occlusion, options_.bins);
+  sky_.emplace(sky_view_factor, AoKind::sky_view_factor, options_.bins);
 }
 
-void BounceSink::take(int b, const TexelVector& irradiance) {
-  Stopwatch watch;
-  alpha_.add(irradiance);
-  sky_.add(irradiance);
-  seconds_ += watch.lap();
-  if (b == 1) seen_.mean = measured_seen(sky_view_factor_, irradiance, surface_).value;
+void SimulationSink::take_bounce(int b, const TexelVector& irradiance) {
+  alpha_->add(irradiance);
+  sky_->add(irradiance);
   if (b < kPreviewedBounces) first_.push_back(to_map(irradiance, surface_));
   if (!options_.save_bounces) return;
-  char name[32];
-  std::snprintf(name, sizeof name, "irradiance_%02d.exr", b);
-  write_map(folder_, name, to_map(irradiance, surface_), "E_b / pi at albedo 1, b = " + std::to_string(b));
+  write_map(folder_, bounce_file(b), to_map(irradiance, surface_),
+            "E_b / pi at albedo 1, b = " + std::to_string(b));
 }
 
-void BounceSink::take_tail(const TexelVector& tail) {
-  alpha_.add_tail(tail);
-  sky_.add_tail(tail);
+void SimulationSink::take_tail(const TexelVector& tail) {
+  alpha_->add_tail(tail);
+  sky_->add_tail(tail);
+}
+
+std::uint64_t SimulationSink::bytes_per_texel() {
+  constexpr std::uint64_t kOnItsWay = 2;  // a bounce that is written: as a map, and as the writer's samples
+  return 2 * CurveBuilder::kBytesPerTexel + (kPreviewedBounces + kOnItsWay) * sizeof(Map::value_type);
 }
 
 }  // namespace heightlight

@@ -7,15 +7,17 @@
 #include <string>
 
 #include "cli/commands.h"
-#include "core/interrupt.h"
+#include "cli/user_message.h"
+#include "files/interrupt.h"
+#include "files/staging_folder.h"
 #include "heightlight/error.h"
-#include "io/staging_folder.h"
+#include "heightlight/version.h"
 
 namespace heightlight {
 namespace {
 
 int fail(int exit_code, const std::string& message) {
-  std::fprintf(stderr, "heightlight: %s\n", message.c_str());
+  std::fputs(("heightlight: " + message + "\n").c_str(), stderr);
   return exit_code;
 }
 
@@ -56,10 +58,12 @@ int run_command_line(int argument_count, const char* const* arguments) {
     return 0;
   } catch (const CLI::ParseError& error) {
     return finish_parse(app, error);
-  } catch (const Interrupted& error) {
-    return end_interrupted(error.signal);
+  } catch (const Cancelled&) {
+    return end_interrupted(noted_signal());
   } catch (const UsageError& error) {
-    return fail(2, error.what());
+    return fail(2, user_message(error));
+  } catch (const Error& error) {
+    return fail(1, user_message(error));
   } catch (const std::bad_alloc&) {
     return fail(1, "out of memory");
   } catch (const std::exception& error) {

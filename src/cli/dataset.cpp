@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <memory>
@@ -5,19 +7,21 @@
 #include <set>
 #include <system_error>
 
+#include "base/progress.h"
+#include "base/stopwatch.h"
 #include "cli/commands.h"
 #include "cli/dataset_runs.h"
 #include "cli/dataset_tables.h"
 #include "cli/manifest.h"
-#include "core/progress.h"
-#include "core/stopwatch.h"
+#include "cli/terminal_watch.h"
+#include "cli/user_message.h"
+#include "files/folder_lock.h"
+#include "files/image_file.h"
+#include "files/map_size.h"
+#include "files/output_file.h"
+#include "files/staged_output.h"
 #include "heightlight/error.h"
 #include "heightlight/synth.h"
-#include "io/folder_lock.h"
-#include "io/image_file.h"
-#include "io/map_size.h"
-#include "io/output_file.h"
-#include "io/staged_output.h"
 
 namespace heightlight {
 namespace {
@@ -36,15 +40,22 @@ void make_folder(const fs::path& folder) {
   if (failure) throw output_error(folder, failure.message());
 }
 
-void refuse_to_replace_manifest(const fs::path& manifest, const fs::path& folder) {
-  std::error_code ignored;  // of files that do not exist, which nothing replaces
-  if (fs::equivalent(manifest, folder / "dataset.json", ignored))
-    throw UsageError(manifest.string() + ": the results would replace it; choose another folder with -o");
+/// All files that a job reads.
+std::vector<fs::path> input_files(const Manifest& manifest) {
+  std::vector<fs::path> inputs{manifest.path};
+  for (const ManifestMap& map : manifest.maps) {
+    if (!map.is_shape()) inputs.push_back(map.file);
+  }
+  for (const ManifestOptions& options : manifest.options) {
+    if (!options.albedo_file.empty()) inputs.push_back(options.simulate.albedo);
+  }
+  return inputs;
 }
 
 /// Writes the shape that a run is to read, once in the life of this process: what lies there may be an older
 /// version's.
-void make_shape(const DatasetRun& run, std::set<const ManifestMap*>& made) {
+void make_shape(const DatasetRun& run, const std::vector<fs::path>& inputs,
+                std::set<const ManifestMap*>& made) {
   const ManifestMap& map = *run.map;
   if (!map.is_shape() || made.contains(&map)) return;
   const fs::path& path = run.simulate.map.path;
@@ -53,47 +64,46 @@ void make_shape(const DatasetRun& run, std::set<const ManifestMap*>& made) {
   check_map_size(path, side, side, kBytesPerTexel, run.simulate.run.memory);
   make_folder(path.parent_path());
   const Image<float> heights = synthesize(map.source, map.size, map.seed);
-  StagedFile file(path);
+  StagedFile file(path, inputs);
   write_float_image(file.path(), {{"Y", &heights}});
   file.commit();
   made.insert(&map);
 }
 
 /// Why a run failed. Where results cannot be written, no run can do anything, and the job ends.
-std::string try_run(const DatasetRun& run, std::set<const ManifestMap*>& made) {
+std::string try_run(const DatasetRun& run, const std::vector<fs::path>& inputs,
+                    std::set<const ManifestMap*>& made, const Watch& watch) {
   try {
-    make_shape(run, made);
-    simulate_map(run.simulate);
+    make_shape(run, inputs, made);
+    simulate_map(run.simulate, watch);
     return "";
   } catch (const OutputError&) {
     throw;
-  } catch (const Interrupted&) {
+  } catch (const Cancelled&) {
     throw;
   } catch (const std::bad_alloc&) {
     return "out of memory";
   } catch (const Error& error) {
-    return error.what();
+    return user_message(error);
   }
 }
 
-void tell(const DatasetRun& run) {
-  std::fprintf(stderr, "heightlight: %s: %s\n", run.name.c_str(), run.fault.c_str());
-}
+void tell(const DatasetRun& run) { fmt::print(stderr, "heightlight: {}: {}\n", run.name, run.fault); }
 
 /// Does what is to be done, in the manifest's order.
-void do_runs(const std::vector<DatasetRun*>& runs, bool quiet) {
-  Progress progress("dataset", static_cast<std::int64_t>(runs.size()), quiet);
+void do_runs(const std::vector<DatasetRun*>& runs, const std::vector<fs::path>& inputs, bool quiet) {
+  const Watch jobs = terminal_watch(quiet);
+  Progress progress("dataset", static_cast<std::int64_t>(runs.size()), jobs);
   std::set<const ManifestMap*> made;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     DatasetRun& run = *runs[i];
-    Progress::set_context("run " + std::to_string(i + 1) + " of " + std::to_string(runs.size()) + ": ");
-    Stopwatch watch;
-    run.fault = try_run(run, made);
-    Progress::set_context("");
+    const Watch watch = terminal_watch(quiet, fmt::format("run {} of {}: ", i + 1, runs.size()));
+    Stopwatch lap;
+    run.fault = try_run(run, inputs, made, watch);
     if (!run.fault.empty()) {
       tell(run);
     } else if (!quiet) {
-      std::printf("%s: %.1f s\n", run.name.c_str(), watch.lap());
+      fmt::print("{}: {:.1f} s\n", run.name, lap.lap());
       std::fflush(stdout);
     }
     progress.add(1);
@@ -115,7 +125,8 @@ std::ptrdiff_t count_stale(const std::vector<DatasetRun>& runs, const fs::path& 
 void make_dataset(DatasetOptions& options) {
   apply_run_options(options.run);
   const Manifest manifest = read_manifest(options.manifest);
-  refuse_to_replace_manifest(options.manifest, options.folder);
+  const std::vector<fs::path> inputs = input_files(manifest);
+  refuse_to_replace(inputs, options.folder);
   make_folder(options.folder);
   const FolderLock lock(options.folder);
   std::vector<DatasetRun> runs = list_runs(manifest, options.folder, options.run);
@@ -128,18 +139,18 @@ void make_dataset(DatasetOptions& options) {
     }
   }
   if (!options.run.quiet) {
-    std::printf("%s: %zu runs, %zu of them to do\n", options.manifest.c_str(), runs.size(), to_do.size());
+    fmt::print("{}: {} runs, {} of them to do\n", options.manifest.string(), runs.size(), to_do.size());
     std::fflush(stdout);
   }
   make_folder(runs_folder(options.folder));
-  do_runs(to_do, options.run.quiet);
-  write_tables(manifest, runs, options.folder);
+  do_runs(to_do, inputs, options.run.quiet);
+  write_tables(manifest, runs, options.folder, inputs);
   const auto failed =
       std::count_if(runs.begin(), runs.end(), [](const DatasetRun& run) { return !run.fault.empty(); });
   if (!options.run.quiet) {
     const std::ptrdiff_t stale = count_stale(runs, options.folder);
-    if (stale > 0) std::printf("%td folders in runs/ belong to no run of the manifest any more\n", stale);
-    std::printf("results in %s\n", options.folder.c_str());
+    if (stale > 0) fmt::print("{} folders in runs/ belong to no run of the manifest any more\n", stale);
+    fmt::print("results in {}\n", options.folder.string());
   }
   if (failed > 0) {
     throw Error(options.manifest.string() + ": " + std::to_string(failed) + " of " +

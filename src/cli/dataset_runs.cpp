@@ -2,9 +2,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/digits.h"
 #include "cli/json_place.h"
-#include "core/digits.h"
-#include "io/image_file.h"
+#include "cli/user_message.h"
+#include "files/image_file.h"
+#include "heightlight/version.h"
 
 namespace heightlight {
 namespace {
@@ -21,10 +23,10 @@ struct Checksum {
 Checksum checksum_of(const fs::path& file) {
   try {
     return {sha256_of_file(file), ""};
-  } catch (const Interrupted&) {
+  } catch (const Cancelled&) {
     throw;
   } catch (const Error& error) {
-    return {"", error.what()};
+    return {"", user_message(error)};
   }
 }
 
@@ -55,9 +57,9 @@ Json describe_map(const ManifestMap& map, const Checksum& checksum, const LoadOp
 
 /// Only what the results depend on: the wanted error means nothing to rays.
 Json describe_simulation(const SimulateOptions& options, const std::string& albedo) {
-  const VisibilityOptions& visibility = options.visibility;
-  Json chosen = {{"error", visibility.error_wanted()}, {"azimuths", or_null(visibility.azimuths)}};
-  if (visibility.by_rays()) chosen = {{"rays", visibility.ray_count()}};
+  const Accuracy accuracy = make_accuracy(options.visibility, options.run.seed);
+  Json chosen = {{"error", accuracy.error}, {"azimuths", or_null(options.visibility.azimuths)}};
+  if (options.visibility.by_rays()) chosen = {{"rays", accuracy.rays}};
   return {{"visibility", chosen}, {"seed", options.run.seed}, {"bounces", options.bounces},
           {"bins", options.bins}, {"albedo", albedo},         {"save_bounces", options.save_bounces}};
 }

@@ -1,18 +1,22 @@
 #include "cli/dataset_tables.h"
 
+#include <fmt/core.h>
+
 #include <array>
 #include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "base/digits.h"
 #include "cli/json_place.h"
-#include "core/digits.h"
-#include "core/interrupt.h"
-#include "heightlight/curves.h"
-#include "io/image_file.h"
-#include "io/input_file.h"
-#include "io/output_file.h"
-#include "io/staged_output.h"
+#include "files/evidence_json.h"
+#include "files/image_file.h"
+#include "files/input_file.h"
+#include "files/interrupt.h"
+#include "files/output_file.h"
+#include "files/staged_output.h"
+#include "heightlight/files.h"
+#include "heightlight/version.h"
 
 namespace heightlight {
 namespace {
@@ -77,6 +81,7 @@ Json describe_run(const DatasetRun& run, const Json& summary) {
           {"surface", map},
           {"options", describe_options(run)},
           {"visibility", summary.at("visibility")},
+          {"links", summary.at("links")},
           {"energy", summary.at("energy")},
           {"seen", summary.at("seen")}};
 }
@@ -85,6 +90,8 @@ Json describe_failure(const DatasetRun& run) {
   return {
       {"run", run.name}, {"map", run.map->name}, {"source", describe_source(*run.map)}, {"fault", run.fault}};
 }
+
+constexpr std::array kTables{"dataset.csv", "costs.csv", "dataset.json"};
 
 constexpr std::array kSteps{"load",  "visibility", "transport", "bounces",
                             "check", "curves",     "output",    "total"};
@@ -109,13 +116,18 @@ std::string cost_line(const DatasetRun& run, const Json& summary) {
 
 }  // namespace
 
-void write_tables(const Manifest& manifest, const std::vector<DatasetRun>& runs, const fs::path& folder) {
-  StagedFolder staged(folder);
+void refuse_to_replace(const std::vector<fs::path>& inputs, const fs::path& folder) {
+  for (const char* name : kTables) check_inputs_stay(inputs, folder / name);
+}
+
+void write_tables(const Manifest& manifest, const std::vector<DatasetRun>& runs, const fs::path& folder,
+                  const std::vector<fs::path>& inputs) {
+  StagedFolder staged(folder, inputs, {kTables.begin(), kTables.end()});
   Json done = Json::array();
   Json failed = Json::array();
   std::string costs = cost_header();
   write_file(staged.file("dataset.csv"), [&](std::FILE* table) {
-    std::fprintf(table, "run,map,relief_share,boundary,options,%s\n", kCurvesHeader);
+    fmt::print(table, "run,map,relief_share,boundary,options,{}\n", kCurvesHeader);
     for (const DatasetRun& run : runs) {
       if (!run.fault.empty()) {
         failed.push_back(describe_failure(run));
@@ -133,7 +145,7 @@ void write_tables(const Manifest& manifest, const std::vector<DatasetRun>& runs,
       {"manifest", {{"file", manifest.path.filename().string()}, {"sha256", sha256_of_file(manifest.path)}}},
       {"runs", done},
       {"failed", failed}};
-  write_bytes(staged.file("dataset.json"), all.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
+  write_bytes(staged.file("dataset.json"), json_text(all));
   staged.commit();
 }
 

@@ -14,6 +14,9 @@ namespace heightlight {
 /// The first two are the same to the last byte for the same manifest, inputs and version. Throws Error naming
 /// a result of a run that cannot be read, OutputError.
 void write_tables(const Manifest& manifest, const std::vector<DatasetRun>& runs,
-                  const std::filesystem::path& folder);
+                  const std::filesystem::path& folder, const std::vector<std::filesystem::path>& inputs);
+
+/// Throws UsageError naming an input that these tables would replace.
+void refuse_to_replace(const std::vector<std::filesystem::path>& inputs, const std::filesystem::path& folder);
 
 }  // namespace heightlight

@@ -1,16 +1,18 @@
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <cstdio>
 #include <memory>
 
+#include "base/progress.h"
 #include "cli/commands.h"
 #include "cli/fit_pictures.h"
 #include "cli/fit_report.h"
 #include "cli/map_options.h"
-#include "core/progress.h"
+#include "cli/terminal_watch.h"
+#include "files/output_file.h"
+#include "files/staged_output.h"
+#include "heightlight/closed_forms.h"
 #include "heightlight/error.h"
-#include "io/output_file.h"
-#include "io/staged_output.h"
-#include "models/shader_text.h"
 
 namespace heightlight {
 namespace {
@@ -24,8 +26,10 @@ struct FitOptions {
 
 std::vector<JudgedMap> read_maps(const FitOptions& options) {
   std::vector<JudgedMap> maps;
-  Progress progress("reading", static_cast<std::int64_t>(options.curves.size()), options.run.quiet);
+  const Watch watch = terminal_watch(options.run.quiet);
+  Progress progress("reading", static_cast<std::int64_t>(options.curves.size()), watch);
   for (const std::filesystem::path& path : options.curves) {
+    progress.throw_if_stopped();
     maps.push_back(read_judged_map(path, options.run.memory));
     progress.add(1);
   }
@@ -51,12 +55,16 @@ double rms_as_published(const FormFamily& family, const std::vector<FitPoint>& p
 std::vector<FittedFamily> fit_families(const FitOptions& options, const std::vector<JudgedMap>& maps) {
   const std::vector<double> weights(maps.size(), 1);
   std::vector<FittedFamily> fitted;
-  Progress progress("fitting", static_cast<std::int64_t>(form_families().size()), options.run.quiet);
+  const Watch watch = terminal_watch(options.run.quiet);
+  Progress progress("fitting", static_cast<std::int64_t>(form_families().size()), watch);
   for (const FormFamily& family : form_families()) {
+    progress.throw_if_stopped();
     const std::vector<FitPoint> points = collect_points(family, maps);
     progress.add(1);
     if (points.empty()) continue;
-    FittedFamily one{&family, fit_family(family, points, weights), {}, rms_as_published(family, points)};
+    FittedFamily one{.family = &family,
+                     .fit = fit_family(family, points, weights),
+                     .published_rms = rms_as_published(family, points)};
     one.intervals =
         bootstrap_family(family, points, maps, one.fit.parameters, options.bootstrap, options.run.seed);
     fitted.push_back(std::move(one));
@@ -74,17 +82,19 @@ std::vector<AlbedoCubic> cubics_by_albedo(const std::vector<JudgedMap>& maps, co
 void fit(FitOptions& options) {
   apply_run_options(options.run);
   if (options.bootstrap < 20 || options.bootstrap > 100000) {
-    throw UsageError("--bootstrap " + std::to_string(options.bootstrap) + ": must be from 20 to 100000");
+    throw UsageError("bootstrap", std::to_string(options.bootstrap), "must be from 20 to 100000");
   }
+  StagedFolder folder(options.folder, options.curves,
+                      {"models.json", "models.csv", "models.glsl", "models.hlsl", "fitted.svg", "fitted.png",
+                       "errors.svg", "errors.png", "cubic.svg", "cubic.png"});
   FitReport report;
   report.inputs = options.curves;
   report.seed = options.run.seed;
   report.maps = read_maps(options);
-  StagedFolder folder(options.folder);
   report.families = fit_families(options, report.maps);
   report.cubics_three_bounces = cubics_by_albedo(report.maps, "cubic_three_bounces");
   report.cubics_all_bounces = cubics_by_albedo(report.maps, "cubic");
-  report.trial = cross_validate(report.maps, options.run.quiet);
+  report.trial = cross_validate(report.maps, terminal_watch(options.run.quiet));
   report.floors = find_floors(report.maps);
 
   write_bytes(folder.file("models.json"), report_json(report));
@@ -100,7 +110,7 @@ void fit(FitOptions& options) {
   folder.commit();
   if (options.run.quiet) return;
   print_report(report);
-  std::printf("results in %s\n", options.folder.c_str());
+  fmt::print("results in {}\n", options.folder.string());
 }
 
 }  // namespace

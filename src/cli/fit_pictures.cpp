@@ -64,14 +64,13 @@ std::vector<FittedPanel> fitted_panels(const FitReport& report) {
   constexpr AoKind kAlpha = AoKind::ambient_occlusion;
   constexpr AoKind kSky = AoKind::sky_view_factor;
   std::vector<FittedPanel> panels;
-  panels.push_back(panel(report, "notes, as published", kAlpha, [](double ao, double albedo) {
-    return notes_total(AmbientOcclusion(ao), albedo).value_or(std::numeric_limits<double>::quiet_NaN());
-  }));
+  panels.push_back(panel(report, "notes, as published", kAlpha,
+                         [](double ao, double albedo) { return notes_total(AmbientOcclusion(ao), albedo); }));
   const NotesConstants notes = refitted_notes(report);
   panels.push_back(panel(report, "notes, fitted here", kAlpha, [notes](double ao, double albedo) {
     return notes_total_guarded(AmbientOcclusion(ao), albedo, notes);
   }));
-  panels.push_back(panel(report, "A/(1 - ρ(1 - A))", kSky, [](double ao, double albedo) {
+  panels.push_back(panel(report, kUniformNeighbourhoodText.formula, kSky, [](double ao, double albedo) {
     return uniform_neighbourhood(SkyViewFactor(ao), albedo);
   }));
   panels.push_back(panel(report, "cubic, as published", kSky,

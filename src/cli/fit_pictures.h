@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "cli/fit_report.h"
-#include "models/shader_text.h"
+#include "heightlight/closed_forms.h"
 #include "plot/fit_plots.h"
 
 namespace heightlight {

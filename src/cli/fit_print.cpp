@@ -1,5 +1,6 @@
+#include <fmt/core.h>
+
 #include <cmath>
-#include <cstdio>
 
 #include "cli/fit_report.h"
 
@@ -8,35 +9,35 @@ namespace {
 
 void print_parameters(const FittedFamily& fitted) {
   const FormFamily& family = *fitted.family;
-  std::printf("%s: %s  (%s)\n", family.name.c_str(), family.formula.c_str(), family.source.c_str());
+  fmt::print("{}: {}  ({})\n", family.name, family.formula, family.source);
   for (std::size_t p = 0; p < family.parameters.size(); ++p) {
     const auto i = static_cast<Eigen::Index>(p);
     const double value = fitted.fit.parameters[i];
-    std::printf("  %-9s %10.5g  95%% %.5g … %.5g   published %.5g (%+.2g)\n", family.parameters[p].c_str(),
-                value, fitted.intervals.low[i], fitted.intervals.high[i], family.published[p],
-                value - family.published[p]);
+    fmt::print("  {:<9} {:10.5g}  95% {:.5g} … {:.5g}   published {:.5g} ({:+.2g})\n", family.parameters[p],
+               value, fitted.intervals.low[i], fitted.intervals.high[i], family.published[p],
+               value - family.published[p]);
   }
-  std::printf("  RMS over the points: %.4f, at the published parameters %.4f\n", fitted.fit.rms,
-              fitted.published_rms);
+  fmt::print("  RMS over the points: {:.4f}, at the published parameters {:.4f}\n", fitted.fit.rms,
+             fitted.published_rms);
 }
 
 void print_errors(const char* title, const std::vector<JudgedForm>& forms) {
   if (forms.empty()) return;
-  std::printf("%s\n  %-26s   ρ = .1     .3     .5     .7     .8     .9   max at .5     .9\n", title, "");
+  fmt::print("{}\n  {:26}   ρ = .1     .3     .5     .7     .8     .9   max at .5     .9\n", title, "");
   for (const JudgedForm& form : forms) {
-    std::printf("  %-26s", form.name.c_str());
-    for (const std::size_t k : {0, 2, 4, 6, 7, 8}) std::printf(" %6.4f", form.errors[k].rms());
-    std::printf("      %.3f  %.3f", form.errors[4].largest, form.errors[8].largest);
-    if (form.outside_share > 0) std::printf("   (%.0f %% outside its domain)", 100 * form.outside_share);
-    std::printf("\n");
+    fmt::print("  {:<26}", form.name);
+    for (const std::size_t k : {0, 2, 4, 6, 7, 8}) fmt::print(" {:6.4f}", form.errors[k].rms());
+    fmt::print("      {:.3f}  {:.3f}", form.errors[4].largest, form.errors[8].largest);
+    if (form.outside_share > 0) fmt::print("   ({:.0f} % outside its domain)", 100 * form.outside_share);
+    fmt::print("\n");
   }
 }
 
 void print_floors(const std::vector<Floor>& floors) {
   for (const Floor& floor : floors) {
-    std::printf("  floor of %-17s", floor.inputs.c_str());
-    for (const std::size_t k : {0, 2, 4, 6, 7, 8}) std::printf(" %6.4f", floor.rms[k]);
-    std::printf("\n");
+    fmt::print("  floor of {:<17}", floor.inputs);
+    for (const std::size_t k : {0, 2, 4, 6, 7, 8}) fmt::print(" {:6.4f}", floor.rms[k]);
+    fmt::print("\n");
   }
 }
 
@@ -44,7 +45,7 @@ void print_floors(const std::vector<Floor>& floors) {
 
 void print_report(const FitReport& report) {
   for (const FittedFamily& fitted : report.families) print_parameters(fitted);
-  for (const std::string& reason : explain_distances(report)) std::printf("%s\n", reason.c_str());
+  for (const std::string& reason : explain_distances(report)) fmt::print("{}\n", reason);
   const std::string left_out = report.trial.materials > 1
                                    ? "each of " + std::to_string(report.trial.materials) +
                                          " materials judged by what was fitted without it"

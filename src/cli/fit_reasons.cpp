@@ -1,20 +1,13 @@
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "cli/fit_report.h"
 #include "heightlight/error.h"
 
 namespace heightlight {
 namespace {
-
-template <class... Values>
-std::string format(const char* pattern, Values... values) {
-  std::array<char, 400> text{};
-  std::snprintf(text.data(), text.size(), pattern, values...);
-  return text.data();
-}
 
 /// The notes' table: bins of equal weight at i/100, however many texels they hold and wherever those lie.
 std::vector<FitPoint> by_the_notes(const FormFamily& family, const std::vector<JudgedMap>& maps) {
@@ -34,7 +27,7 @@ std::string describe_parameters(const FormFamily& family, const Eigen::VectorXd&
   std::string text;
   for (std::size_t p = 0; p < family.parameters.size(); ++p) {
     text += (p > 0 ? ", " : "") +
-            format("%s %.4g", family.parameters[p].c_str(), parameters[static_cast<Eigen::Index>(p)]);
+            fmt::format("{} {:.4g}", family.parameters[p], parameters[static_cast<Eigen::Index>(p)]);
   }
   return text;
 }
@@ -65,11 +58,11 @@ std::string explain_maps(const FittedFamily& fitted, const std::vector<JudgedMap
   }
   const std::size_t count = alone.front().size();
   std::string text =
-      "why: " + family.name + format(" to each of %d maps alone, the middle half: ", static_cast<int>(count));
+      "why: " + family.name + fmt::format(" to each of {} maps alone, the middle half: ", count);
   for (std::size_t p = 0; p < alone.size() && count > 0; ++p) {
     std::sort(alone[p].begin(), alone[p].end());
-    text += (p > 0 ? ", " : "") + format("%s %.4g … %.4g", family.parameters[p].c_str(), alone[p][count / 4],
-                                         alone[p][count - 1 - count / 4]);
+    text += (p > 0 ? ", " : "") + fmt::format("{} {:.4g} … {:.4g}", family.parameters[p], alone[p][count / 4],
+                                              alone[p][count - 1 - count / 4]);
   }
   return text;
 }
@@ -80,8 +73,8 @@ std::string explain_bounces(const FittedFamily& three, const FittedFamily& all) 
   half.sky_view_factor = SkyViewFactor(0.5);
   const double with_three = three.family->evaluate(three.fit.parameters, half, 0.9);
   const double with_all = all.family->evaluate(all.fit.parameters, half, 0.9);
-  return format(
-      "why: the cubic at A = 0.5, albedo 0.9: %.3f of three bounces, %.3f of all, %.3f as published",
+  return fmt::format(
+      "why: the cubic at A = 0.5, albedo 0.9: {:.3f} of three bounces, {:.3f} of all, {:.3f} as published",
       with_three, with_all, cubic_total(SkyViewFactor(0.5), 0.9));
 }
 

@@ -1,8 +1,10 @@
 #include "cli/fit_report.h"
 
-#include <array>
-#include <charconv>
 #include <nlohmann/json.hpp>
+
+#include "base/digits.h"
+#include "files/evidence_json.h"
+#include "heightlight/version.h"
 
 namespace heightlight {
 namespace {
@@ -88,19 +90,12 @@ Json describe_forms(const std::vector<JudgedForm>& forms) {
   return json;
 }
 
-/// The shortest digits that read back as the same double, in any locale.
-std::string digits(double value) {
-  std::array<char, 32> text{};
-  const std::to_chars_result end = std::to_chars(text.data(), text.data() + text.size(), value);
-  return {text.data(), end.ptr};
-}
-
 void append_forms(const std::vector<JudgedForm>& forms, const char* unit, std::string& text) {
   for (const JudgedForm& form : forms) {
     for (std::size_t k = 0; k < form.errors.size(); ++k) {
-      text += form.name + (form.fitted ? ",1," : ",0,") + unit + ',' + digits(judged_albedos()[k]) + ',' +
-              digits(form.errors[k].rms()) + ',' + digits(form.errors[k].bias()) + ',' +
-              digits(form.errors[k].largest) + '\n';
+      text += form.name + (form.fitted ? ",1," : ",0,") + unit + ',' + in_digits(judged_albedos()[k]) + ',' +
+              in_digits(form.errors[k].rms()) + ',' + in_digits(form.errors[k].bias()) + ',' +
+              in_digits(form.errors[k].largest) + '\n';
     }
   }
 }
@@ -135,7 +130,7 @@ std::string report_json(const FitReport& report) {
   for (const Floor& floor : report.floors) {
     json["floors"].push_back({{"inputs", floor.inputs}, {"albedos", judged_albedos()}, {"rms", floor.rms}});
   }
-  return json.dump(2) + '\n';
+  return json_text(json);
 }
 
 std::string report_csv(const FitReport& report) {
@@ -145,8 +140,8 @@ std::string report_csv(const FitReport& report) {
   append_forms(report.trial.per_bin, "bin", text);
   for (const Floor& floor : report.floors) {
     for (std::size_t k = 0; k < floor.rms.size(); ++k) {
-      text += "floor of " + floor.inputs + ",1,texel," + digits(judged_albedos()[k]) + ',' +
-              digits(floor.rms[k]) + ",0,\n";
+      text += "floor of " + floor.inputs + ",1,texel," + in_digits(judged_albedos()[k]) + ',' +
+              in_digits(floor.rms[k]) + ",0,\n";
     }
   }
   return text;

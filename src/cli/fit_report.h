@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "models/bootstrap.h"
-#include "models/cross_validation.h"
-#include "models/cubic_by_albedo.h"
-#include "models/floors.h"
+#include "fit/bootstrap.h"
+#include "fit/cross_validation.h"
+#include "fit/cubic_by_albedo.h"
+#include "fit/floors.h"
 
 namespace heightlight {
 
@@ -16,7 +16,7 @@ namespace heightlight {
 struct FittedFamily {
   const FormFamily* family = nullptr;
   LeastSquaresFit fit;
-  ParameterIntervals intervals;
+  ParameterIntervals intervals = {};
   double published_rms = 0;  ///< of the family at its published parameters, over the same points
 };
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/input_file.h"
+#include "files/input_file.h"
 
 namespace heightlight {
 namespace {

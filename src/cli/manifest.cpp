@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include "base/digits.h"
 #include "cli/json_place.h"
-#include "core/digits.h"
 #include "heightlight/synth.h"
 
 namespace heightlight {
@@ -144,8 +144,7 @@ ManifestOptions read_options(const std::filesystem::path& manifest, const JsonPl
   try {
     check_simulate_options(simulate);
   } catch (const UsageError& error) {
-    const std::string fault = error.what();
-    throw place.error(fault.starts_with("--") ? fault.substr(2) : fault);
+    throw place.error(error.what());
   }
   return options;
 }

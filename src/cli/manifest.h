@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cli/simulation.h"
-#include "heightlight/heightmap.h"
+#include "heightlight/files.h"
 
 namespace heightlight {
 

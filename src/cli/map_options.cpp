@@ -1,7 +1,8 @@
 #include "cli/map_options.h"
 
-#include "core/byte_size.h"
-#include "core/parallel.h"
+#include <omp.h>
+
+#include "base/byte_size.h"
 #include "heightlight/error.h"
 
 namespace heightlight {
@@ -16,7 +17,7 @@ double parse_length(const std::string& text, const std::string& whole) {
     used = 0;
   }
   if (used == 0 || used != text.size()) {
-    throw UsageError("--texel " + whole + ": write one spacing (50) or two (70.8x92.6)");
+    throw UsageError("texel", whole, "write one spacing (50) or two (70.8x92.6)");
   }
   return value;
 }
@@ -82,7 +83,7 @@ void add_run_options(CLI::App& command, RunOptions& options) {
 }
 
 void apply_run_options(RunOptions& options) {
-  set_thread_count(options.threads);
+  omp_set_num_threads(options.threads > 0 ? options.threads : omp_get_num_procs());
   if (options.memory == 0) options.memory = available_memory() / 5 * 4;
 }
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "heightlight/heightmap.h"
+#include "heightlight/files.h"
 
 namespace heightlight {
 

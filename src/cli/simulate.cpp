@@ -1,33 +1,34 @@
-#include <cstdio>
+#include <fmt/core.h>
+
 #include <memory>
 
+#include "base/byte_size.h"
 #include "cli/commands.h"
 #include "cli/simulation.h"
-#include "core/byte_size.h"
+#include "cli/terminal_watch.h"
 
 namespace heightlight {
 namespace {
 
 void report(const SimulateOptions& options, const Simulation& simulation) {
   if (options.run.quiet) return;
-  const StepTimes& s = simulation.seconds;
-  std::printf("%s: %d x %d texels, %llu links (%s) in %.1f s\n", options.map.path.c_str(), simulation.width,
-              simulation.height, static_cast<unsigned long long>(simulation.links),
-              format_byte_size(simulation.link_bytes).c_str(), s.total);
-  std::printf("visibility %.1f s, bounces %.1f s, curves %.1f s, output %.1f s\n", s.visibility, s.bounces,
-              s.curves, s.output);
-  if (simulation.check) {
-    std::printf("RMSE against exact walks: %.2g of the sky view factor, %.2g of the total\n",
-                simulation.check->sky_rmse, simulation.check->total_rmse);
-  } else if (simulation.rmse_estimate) {
-    std::printf("RMSE of the sky view factor about %.2g\n", *simulation.rmse_estimate);
+  const StepTimes& own = simulation.seconds;
+  const Evidence& evidence = simulation.evidence;
+  fmt::print("{}: {} x {} texels, {} links ({}) in {:.1f} s\n", options.map.path.string(), simulation.width,
+             simulation.height, evidence.links, format_byte_size(evidence.link_bytes), own.total);
+  fmt::print("visibility {:.1f} s, bounces {:.1f} s, curves {:.1f} s, output {:.1f} s\n",
+             evidence.seconds.visibility, evidence.seconds.bounces, own.curves, own.output);
+  if (!evidence.total_checks.empty()) {
+    fmt::print("RMSE against exact walks: {:.2g} of the sky view factor, {:.2g} of the total\n",
+               evidence.total_checks[0].sky_rmse, evidence.total_checks[0].total_rmse);
+  } else if (evidence.sky_rmse) {
+    fmt::print("RMSE of the sky view factor about {:.2g}\n", *evidence.sky_rmse);
   }
-  std::printf(
-      "energy: sum of all bounces is 1 within %.1g; after %d of them %.2g is left on average (%.2g at "
+  fmt::print(
+      "energy: sum of all bounces is 1 within {:.1g}; after {} of them {:.2g} is left on average ({:.2g} at "
       "most)\n",
-      simulation.energy.sum_max_error, options.bounces, simulation.energy.tail_mean,
-      simulation.energy.tail_max);
-  std::printf("results in %s\n", options.folder.c_str());
+      evidence.energy->sum_max_error, options.bounces, evidence.energy->tail_mean, evidence.energy->tail_max);
+  fmt::print("results in {}\n", options.folder.string());
 }
 
 }  // namespace
@@ -56,7 +57,7 @@ void add_simulate_command(CLI::App& app) {
       "  heightlight simulate dem.tif -o dem --texel 50 --boundary open  terrain in metres");
   command->callback([options] {
     apply_run_options(options->run);
-    report(*options, simulate_map(*options));
+    report(*options, simulate_map(*options, terminal_watch(options->run.quiet)));
   });
 }
 

@@ -1,16 +1,15 @@
-#include <cmath>
-#include <set>
-#include <system_error>
+#include <string>
 
+#include "base/byte_size.h"
+#include "base/stopwatch.h"
 #include "cli/bounce_sink.h"
+#include "cli/name_errors.h"
 #include "cli/simulation.h"
 #include "cli/simulation_files.h"
-#include "cli/solve_bounces.h"
-#include "core/byte_size.h"
-#include "core/stopwatch.h"
+#include "files/input_file.h"
 #include "heightlight/error.h"
-#include "io/input_file.h"
 #include "plot/curve_plots.h"
+#include "relief/relief_study.h"
 
 namespace heightlight {
 namespace {
@@ -20,138 +19,98 @@ const std::vector<double> kStudiedReliefs{0.01, 0.03, 0.1, 0.3, 1.0};
 constexpr int kStudySide = 128;
 constexpr int kStudyBins = 40;
 
-/// Inputs are never replaced: a map called height.png would be, if the results went into its own folder.
-void refuse_to_replace(const std::filesystem::path& input, const std::filesystem::path& folder) {
-  static const std::set<std::string> kResults{
-      "height.png", "ambient_occlusion.png", "sky_view_factor.png", "irradiance_total.png", "bounces.png",
-      "curves.png", "ambient_occlusion.exr", "sky_view_factor.exr", "irradiance_total.exr"};
-  const std::string name = input.filename().string();
-  const bool is_result =
-      kResults.contains(name) || (name.starts_with("irradiance_") && name.ends_with(".exr"));
-  std::error_code ignored;  // of files that do not exist, which nothing replaces
-  if (is_result && std::filesystem::equivalent(input, folder / name, ignored)) {
-    throw UsageError(input.string() + ": the results would replace it; choose another folder with -o");
-  }
-}
-
-/// Memory for the links: what the maps and vectors of the other steps leave of the limit.
-std::uint64_t memory_for_links(const SimulateOptions& options, const Heightmap& map) {
-  // Heights, normals, pyramids, AO and light maps, bounces and their sums, previews, the bins; with rays or
-  // exact slices some 10 vectors of the solver, too.
-  const bool solves = options.visibility.by_rays() || options.visibility.exact();
-  const std::uint64_t bytes_per_texel = solves ? 320 : 200;
-  const std::uint64_t needed = map.height.size() * bytes_per_texel;
-  if (needed >= options.run.memory) {
-    throw Error(options.map.path.string() + ": simulating " + std::to_string(map.height.width) + " × " +
-                std::to_string(map.height.height) + " texels needs " + format_byte_size(needed) +
-                " beside its links, more than the " + format_byte_size(options.run.memory) +
-                " allowed by --memory");
-  }
-  return options.run.memory - needed;
-}
-
-/// The error that the summary reports: of rays against more rays, of horizon walks against exact ones.
-void estimate_errors(const SimulateOptions& options, const Surface& surface, const Transport& transport,
-                     const TexelVector& total, const Albedo& albedo, Simulation& simulation) {
-  if (options.visibility.by_rays()) {
-    const double rmse = estimate_ray_rmse(surface, {options.visibility.ray_count(), options.run.seed});
-    if (!std::isnan(rmse)) simulation.rmse_estimate = rmse;
-    return;
-  }
-  const TexelVector reflectance =
-      albedo.varying.empty() ? TexelVector::Constant(total.size(), albedo.constant[0]) : albedo.varying[0];
-  const HorizonCheck check = check_by_exact_walks(surface, transport, total, reflectance, options.run.seed);
-  if (check.receivers == 0) return;
-  simulation.check = check;
-  simulation.rmse_estimate = check.sky_rmse;
+std::vector<std::filesystem::path> input_files(const SimulateOptions& options) {
+  return {options.map.path, options.albedo};  // an albedo that is a number names no file
 }
 
 LoadedHeightmap load_input(const SimulateOptions& options) {
-  refuse_to_replace(options.map.path, options.folder);
-  refuse_to_replace(options.albedo, options.folder);
   LoadedHeightmap loaded = load_heightmap(options.map.path, options.map.load, options.run.memory);
   if (!options.sha256.empty() && loaded.facts.sha256 != options.sha256)
     throw file_error(options.map.path, "was changed while it was in use");
   return loaded;
 }
 
-/// Finds visibility, and notes how.
-std::unique_ptr<Transport> find_transport(const SimulateOptions& options, const Surface& surface,
-                                          std::uint64_t link_memory, Simulation& simulation) {
-  Stopwatch watch;
-  FoundVisibility found =
-      find_visibility(surface, options.visibility, options.run, options.map.path.string(), link_memory);
-  simulation.plan = found.plan;
-  simulation.seconds.visibility = watch.lap();
-  simulation.links = found.transport->link_count();
-  simulation.link_bytes = found.transport->bytes();
-  simulation.energy.row_sum_max_error = row_sum_error(*found.transport);
-  simulation.seconds.transport = watch.lap();
-  return std::move(found.transport);
+/// What the solution may take: the limit less what the sink, the totals as maps and their pictures hold.
+std::uint64_t memory_to_solve(const SimulateOptions& options, const Surface& surface, const Albedo& albedo) {
+  const std::uint64_t per_texel =
+      SimulationSink::bytes_per_texel() + albedo.channels() * sizeof(Map::value_type);
+  const std::uint64_t own = surface.map.height.size() * per_texel;
+  if (own < options.run.memory) return options.run.memory - own;
+  throw MemoryError("simulating " + std::to_string(surface.width()) + " × " +
+                    std::to_string(surface.height()) + " texels needs more than " + format_byte_size(own) +
+                    ", and " + format_byte_size(options.run.memory) + " are allowed");
+}
+
+Request make_request(const SimulateOptions& options, const Albedo& albedo, const Watch& watch) {
+  Request request;
+  request.wanted = {.sky = true, .totals = {albedo}, .bounces = options.bounces};
+  request.accuracy = make_accuracy(options.visibility, options.run.seed);
+  request.checks.sky = false;  // A is checked with the total
+  request.watch = watch;
+  return request;
 }
 
 /// The curves, and their figure with a study of the relief.
 void write_curves(StagedFolder& folder, const SimulateOptions& options, const Surface& surface,
-                  const std::vector<BounceCurves>& curves, StepTimes& seconds) {
-  Stopwatch watch;
+                  const std::vector<BounceCurves>& curves, const Watch& watch) {
   write_curves_csv(folder.file("curves.csv"), curves);
-  const std::vector<ReliefCurves> study =
-      study_reliefs(surface.map, kStudiedReliefs, kStudySide, 1, kStudyBins, options.run.quiet);
-  seconds.curves += watch.lap();
+  const ReliefStudy study{.relief_shares = kStudiedReliefs, .largest_side = kStudySide, .bins = kStudyBins};
   plot_curves(folder.file("curves.svg"), folder.file("curves.png"),
-              {curves[0], curves[1], study, options.map.path.filename().string()});
-  seconds.output += watch.lap();
+              {.ambient_occlusion = curves[0],
+               .sky_view_factor = curves[1],
+               .reliefs = study_reliefs(surface.map, study, watch),
+               .title = options.map.path.filename().string()});
+}
+
+void write_maps(StagedFolder& folder, const Surface& surface, const Results& results,
+                const SimulationSink& sink) {
+  std::vector<Map> totals;
+  for (const TexelVector& values : results.totals[0]) totals.push_back(to_map(values, surface));
+  write_occlusion(folder, results);
+  write_totals(folder, totals);
+  write_pictures(folder, surface, results, sink.first(), totals);
 }
 
 }  // namespace
 
 void check_simulate_options(const SimulateOptions& options) {
-  check_visibility_options(options.visibility, options.run.seed);
+  check_visibility_options(options.visibility);
   if (options.bounces < 1 || options.bounces > 1000) {
-    throw UsageError("--bounces " + std::to_string(options.bounces) + ": must be from 1 to 1000");
+    throw UsageError("bounces", std::to_string(options.bounces), "must be from 1 to 1000");
   }
   if (options.bins < 1 || options.bins > 10000) {
-    throw UsageError("--bins " + std::to_string(options.bins) + ": must be from 1 to 10000");
+    throw UsageError("bins", std::to_string(options.bins), "must be from 1 to 10000");
   }
 }
 
-Simulation simulate_map(const SimulateOptions& options) {
+Simulation simulate_map(const SimulateOptions& options, const Watch& watch) {
   Stopwatch total;
-  Stopwatch watch;
+  Stopwatch lap;
   Simulation simulation;
   StepTimes& seconds = simulation.seconds;
   check_simulate_options(options);
-
+  StagedFolder folder(options.folder, input_files(options), simulation_file_names(options.bounces));
   LoadedHeightmap loaded = load_input(options);
   simulation.facts = loaded.facts;
-  simulation.width = loaded.map.height.width;
-  simulation.height = loaded.map.height.height;
-  const std::uint64_t link_memory = memory_for_links(options, loaded.map);
   const Surface surface = build_surface(std::move(loaded.map));
+  simulation.width = surface.width();
+  simulation.height = surface.height();
   const Albedo albedo = read_albedo(options.albedo, surface.map, options.run.memory);
-  StagedFolder folder(options.folder);
-  seconds.load = watch.lap();
+  seconds.load = lap.lap();
 
-  const std::unique_ptr<Transport> transport = find_transport(options, surface, link_memory, simulation);
-  watch.lap();
-  BounceSink sink(*transport, surface, options, folder);
-  const SolvedBounces solved = solve_bounces(*transport, surface, albedo, options,
-                                             simulation.plan.has_value(), sink, simulation.energy);
-  simulation.seen = sink.seen();
-  simulation.seen.deep = solved.deep_seen;
-  seconds.curves = sink.seconds();
-  seconds.bounces = watch.lap() - seconds.curves;
-  estimate_errors(options, surface, *transport, solved.totals[0], albedo, simulation);
-  seconds.check = watch.lap();
-
-  write_curves(folder, options, surface, sink.curves(), seconds);
-  watch.lap();
-  std::vector<Map> totals;
-  for (const TexelVector& values : solved.totals) totals.push_back(to_map(values, surface));
-  write_occlusion(folder, *transport);
-  write_totals(folder, totals);
-  write_pictures(folder, surface, *transport, sink.first(), totals);
-  seconds.output += watch.lap();
+  SimulationSink sink(surface, options, folder);
+  const Results results = name_errors(options.map.path, [&] {
+    Request request = make_request(options, albedo, watch);
+    request.limits.memory = memory_to_solve(options, surface, albedo);
+    request.sink = &sink;
+    return solve(surface, request);
+  });
+  simulation.evidence = results.evidence;
+  lap.lap();
+  write_curves(folder, options, surface, sink.curves(), watch);
+  seconds.curves = results.evidence.seconds.sink + lap.lap();
+  write_maps(folder, surface, results, sink);
+  seconds.output = lap.lap();
   seconds.total = total.lap();
   write_summary(folder.file("summary.json"), options, surface, albedo, simulation);
   folder.commit();

@@ -1,14 +1,14 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/albedo.h"
 #include "cli/map_options.h"
 #include "cli/visibility_options.h"
-#include "heightlight/transport.h"
+#include "heightlight/files.h"
+#include "heightlight/watch.h"
 
 namespace heightlight {
 
@@ -25,35 +25,12 @@ struct SimulateOptions {
   bool save_bounces = false;
 };
 
-/// Seconds that each step took.
+/// Seconds that each step took beside the solution's own.
 struct StepTimes {
   double load = 0;
-  double visibility = 0;
-  double transport = 0;  ///< setting up the operator: for stored links, counting and checking them
-  double bounces = 0;
-  double check = 0;   ///< estimating the errors
   double curves = 0;  ///< binning, the curves' table, the study of the relief
   double output = 0;  ///< maps, plots and pictures
   double total = 0;
-};
-
-/// What must hold of any surface, as measured on this one.
-struct EnergyCheck {
-  double row_sum_max_error = 0;   ///< |sky + Σ F − 1|
-  double sum_max_error = 0;       ///< |E₀ + … + E_K + tail − 1| at ρ = 1, in units of π
-  double mean_total_over_pi = 1;  ///< mean of that sum
-  double tail_mean = 0;           ///< of the tail after K bounces at ρ = 1, E/π
-  double tail_max = 0;
-  double spectral_radius = 0;
-  double solver_residual = 0;  ///< largest relative residual of the linear solves
-  int solver_iterations = 0;   ///< largest number of iterations among them
-};
-
-/// The mean sky view factor of what texels see, weighted by how much of it they see.
-struct SeenSky {
-  double expected = 1;  ///< by reciprocity, from the sky view factor and the normals alone
-  double deep = 1;      ///< t of the models: what the deepest places see, tuned to the whole map
-  double mean = 1;  ///< as the first bounce brings it; the two part where samples don't resolve the surface
 };
 
 /// Everything that the summary reports.
@@ -61,13 +38,7 @@ struct Simulation {
   SourceFacts facts;
   int width = 0;  ///< of the map, in texels
   int height = 0;
-  std::optional<HorizonPlan> plan;      ///< of fast horizon walks
-  std::optional<double> rmse_estimate;  ///< of A; absent where no receiver is
-  std::optional<HorizonCheck> check;    ///< of horizon walks
-  std::uint64_t links = 0;
-  std::uint64_t link_bytes = 0;
-  SeenSky seen;
-  EnergyCheck energy;
+  Evidence evidence;
   StepTimes seconds;
 };
 
@@ -76,8 +47,8 @@ void check_simulate_options(const SimulateOptions& options);
 
 /// All that `heightlight simulate` does for one map, from its file to the committed folder. `options.run` has
 /// been applied. Throws Error naming what could not be done, OutputError where a result could not be written,
-/// UsageError, Interrupted; the folder then is as it was.
-Simulation simulate_map(const SimulateOptions& options);
+/// UsageError, Cancelled; the folder then is as it was.
+Simulation simulate_map(const SimulateOptions& options, const Watch& watch);
 
 /// Writes `summary.json`. Throws OutputError.
 void write_summary(const std::filesystem::path& path, const SimulateOptions& options, const Surface& surface,

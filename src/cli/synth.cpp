@@ -7,9 +7,9 @@
 #include <memory>
 
 #include "cli/commands.h"
+#include "files/image_file.h"
+#include "files/staged_output.h"
 #include "heightlight/error.h"
-#include "io/image_file.h"
-#include "io/staged_output.h"
 
 namespace heightlight {
 namespace {

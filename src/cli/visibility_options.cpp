@@ -1,10 +1,16 @@
 #include "cli/visibility_options.h"
 
-#include <cmath>
+#include <string>
 
 #include "heightlight/error.h"
 
 namespace heightlight {
+namespace {
+
+constexpr int kDefaultRays = 300;
+constexpr double kDefaultError = 0.002;
+
+}  // namespace
 
 void add_visibility_options(CLI::App& command, VisibilityOptions& options) {
   command
@@ -19,43 +25,32 @@ void add_visibility_options(CLI::App& command, VisibilityOptions& options) {
   command.add_option("--rays", options.rays, "rays per texel, 1 to 65536 (300); means --visibility rays");
 }
 
-void check_visibility_options(const VisibilityOptions& options, std::uint64_t seed) {
+void check_visibility_options(const VisibilityOptions& options) {
   if (options.method == "horizon" && options.rays) {
-    throw UsageError("--rays: horizon walks send none; leave it out, or choose --visibility rays");
+    throw UsageError("rays", "", "horizon walks send none; leave it out, or choose --visibility rays");
   }
   if (options.by_rays()) {
-    if (options.azimuths) throw UsageError("--azimuths: rays have none; use --rays");
-    if (options.error) throw UsageError("--error: rays do not aim at one; use --rays");
-    check_ray_options({options.ray_count(), seed});
+    if (options.azimuths) throw UsageError("azimuths", "", "rays have none; use --rays");
+    if (options.error) throw UsageError("error", "", "rays do not aim at one; use --rays");
+    check_ray_options({.rays = options.rays.value_or(kDefaultRays)});
     return;
   }
   if (options.azimuths) check_azimuths(*options.azimuths);
-  if (!(options.error_wanted() >= 0) || options.error_wanted() > 1) {
-    throw UsageError("--error " + std::to_string(options.error_wanted()) + ": must be from 0 to 1");
-  }
+  const double error = options.error.value_or(kDefaultError);
+  if (!(error >= 0) || error > 1) throw UsageError("error", std::to_string(error), "must be from 0 to 1");
 }
 
-FoundVisibility find_visibility(const Surface& surface, const VisibilityOptions& options,
-                                const RunOptions& run, const std::string& map_name, std::uint64_t memory) {
-  FoundVisibility found;
-  FormFactorOptions stored;
-  stored.rays = {options.ray_count(), run.seed};
-  stored.memory_limit = memory;
-  stored.quiet = run.quiet;
-  stored.map_name = map_name;
-  if (options.by_rays()) {
-    found.transport = std::make_unique<FormFactors>(build_form_factors(surface, stored));
-  } else if (options.exact()) {
-    found.transport =
-        std::make_unique<FormFactors>(build_exact_form_factors(surface, options.exact_azimuths(), stored));
-  } else {
-    PlannedTransport planned = plan_horizon_transport(
-        surface, {options.error_wanted(), false, options.azimuths.value_or(0), run.seed},
-        {memory, run.quiet});
-    found.transport = std::move(planned.transport);
-    found.plan = planned.plan;
-  }
-  return found;
+Accuracy make_accuracy(const VisibilityOptions& options, std::uint64_t seed) {
+  const double error = options.error.value_or(kDefaultError);
+  Accuracy accuracy;
+  accuracy.visibility = options.by_rays() ? Visibility::rays
+                        : error == 0      ? Visibility::exact_slices
+                                          : Visibility::horizon_walks;
+  accuracy.error = error;
+  accuracy.azimuths = options.azimuths.value_or(0);
+  accuracy.rays = options.rays.value_or(kDefaultRays);
+  accuracy.seed = seed;
+  return accuracy;
 }
 
 }  // namespace heightlight

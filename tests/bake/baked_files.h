@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "heightlight/bake.h"
+#include "bake/bake.h"
 #include "scratch_folder.h"
 
 namespace heightlight {

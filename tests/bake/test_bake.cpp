@@ -8,8 +8,8 @@
 
 #include "bake/baked_files.h"
 #include "bake/blue_noise.h"
-#include "core/hash.h"
-#include "core/parallel.h"
+#include "base/hash.h"
+#include "base/parallel.h"
 #include "heightlight/error.h"
 #include "test_maps.h"
 

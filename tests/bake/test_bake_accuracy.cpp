@@ -7,12 +7,12 @@
 
 #include "bake/bent_cone.h"
 #include "bake/material.h"
-#include "bake/sky_harmonics.h"
-#include "core/hash.h"
-#include "core/parallel.h"
+#include "base/hash.h"
+#include "base/parallel.h"
 #include "shared_data.h"
 #include "test_maps.h"
 #include "visibility/ray_caster.h"
+#include "visibility/sky_harmonics.h"
 
 // The baked fields at the default error against rays, which share no code with the walks.
 

@@ -8,10 +8,10 @@
 #include "bake/bent_cone.h"
 #include "bake/blue_noise.h"
 #include "bake/model_map.h"
-#include "bake/sky_harmonics.h"
 #include "bake/texel_encoding.h"
-#include "core/gauss_legendre.h"
-#include "core/hash.h"
+#include "base/gauss_legendre.h"
+#include "base/hash.h"
+#include "visibility/sky_harmonics.h"
 
 namespace heightlight {
 namespace {

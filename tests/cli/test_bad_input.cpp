@@ -5,8 +5,8 @@
 #include <string>
 
 #include "command.h"
+#include "files/image_file.h"
 #include "heightlight/image.h"
-#include "io/image_file.h"
 
 // Whatever is wrong with the input, the user gets one line that names it, an exit code, and no file.
 

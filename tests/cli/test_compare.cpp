@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "command.h"
+#include "files/image_file.h"
 #include "heightlight/image.h"
-#include "io/image_file.h"
 
 namespace heightlight {
 namespace {

@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "base/hash.h"
 #include "cli/manifest.h"
 #include "command.h"
-#include "core/hash.h"
+#include "files/folder_lock.h"
 #include "folder_contents.h"
 #include "heightlight/error.h"
-#include "io/folder_lock.h"
 #include "running_command.h"
 
 // Many runs from one manifest: complete, tidy, resumable.

@@ -8,7 +8,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "core/elevation-inl.h"
+#include "base/elevation-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace heightlight::HWY_NAMESPACE {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/hash.h"
-#include "core/parallel.h"
+#include "base/hash.h"
+#include "base/parallel.h"
 #include "heightlight/curves.h"
 #include "heightlight/error.h"
 

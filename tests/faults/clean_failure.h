@@ -6,8 +6,8 @@
 #include <string>
 
 #include "cli/running_command.h"
+#include "files/image_file.h"
 #include "heightlight/image.h"
-#include "io/image_file.h"
 #include "scratch_folder.h"
 
 namespace heightlight {

@@ -10,9 +10,9 @@
 #include <string>
 #include <thread>
 
+#include "base/hash.h"
 #include "clean_failure.h"
 #include "cli/folder_contents.h"
-#include "core/hash.h"
 
 // Disks that fill up, folders that cannot be written to, inputs that vanish, names of all kinds: results
 // appear whole or not at all.

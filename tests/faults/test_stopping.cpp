@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "base/hash.h"
 #include "clean_failure.h"
 #include "cli/folder_contents.h"
-#include "core/hash.h"
 
 // Stopped, killed or short of memory at any moment, the command leaves nothing half-written.
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "base/parallel.h"
 #include "cli/command_line.h"
-#include "core/parallel.h"
 #include "fuzz_input.h"
 
 namespace {

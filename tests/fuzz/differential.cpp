@@ -6,7 +6,7 @@
 #include <chrono>
 #include <cstdio>
 
-#include "core/hash.h"
+#include "base/hash.h"
 #include "random_map.h"
 #include "solver_checks.h"
 

@@ -1,7 +1,7 @@
 // Esri ASCII grids.
 
+#include "files/esri_grid.h"
 #include "fuzz_input.h"
-#include "io/esri_grid.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace heightlight;

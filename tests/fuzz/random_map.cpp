@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/hash.h"
+#include "base/hash.h"
 
 namespace heightlight {
 namespace {

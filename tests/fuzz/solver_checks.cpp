@@ -6,8 +6,8 @@
 #include <cmath>
 #include <memory>
 
-#include "core/hash.h"
-#include "core/parallel.h"
+#include "base/hash.h"
+#include "base/parallel.h"
 #include "heightlight/transport.h"
 #include "visibility/exact_walk.h"
 #include "visibility/ray_caster.h"

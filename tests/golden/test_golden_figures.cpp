@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "heightlight/models.h"
+#include "heightlight/closed_forms.h"
 #include "heightlight/screenspace.h"
 #include "heightlight/transport.h"
 #include "test_maps.h"

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
+#include "files/degrees.h"
 #include "heightlight/heightmap.h"
-#include "heightmap/degrees.h"
 #include "scratch_folder.h"
 
 using namespace heightlight;

@@ -3,8 +3,8 @@
 #include <limits>
 #include <numbers>
 
+#include "files/level_count.h"
 #include "heightlight/heightmap.h"
-#include "heightmap/level_count.h"
 
 using namespace heightlight;
 

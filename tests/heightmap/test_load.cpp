@@ -2,9 +2,9 @@
 #include <cmath>
 #include <limits>
 
+#include "files/image_file.h"
 #include "heightlight/error.h"
 #include "heightlight/heightmap.h"
-#include "io/image_file.h"
 #include "scratch_folder.h"
 #include "write_samples.h"
 

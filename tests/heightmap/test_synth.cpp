@@ -6,7 +6,7 @@
 #include <numbers>
 #include <set>
 
-#include "core/parallel.h"
+#include "base/parallel.h"
 #include "heightlight/error.h"
 #include "heightlight/synth.h"
 

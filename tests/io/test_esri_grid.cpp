@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "files/esri_grid.h"
 #include "heightlight/error.h"
-#include "io/esri_grid.h"
 #include "scratch_folder.h"
 
 using namespace heightlight;

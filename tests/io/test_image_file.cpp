@@ -2,9 +2,9 @@
 #include <cmath>
 #include <limits>
 
+#include "files/image_file.h"
+#include "files/image_read.h"
 #include "heightlight/error.h"
-#include "io/image_file.h"
-#include "io/image_read.h"
 #include "scratch_folder.h"
 
 using namespace heightlight;

@@ -1,10 +1,10 @@
 #include <catch2/catch.hpp>
 #include <numeric>
 
+#include "files/image_file.h"
+#include "files/image_read.h"
+#include "files/map_size.h"
 #include "heightlight/error.h"
-#include "io/image_file.h"
-#include "io/image_read.h"
-#include "io/map_size.h"
 #include "scratch_folder.h"
 #include "write_samples.h"
 

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
+#include "files/staged_output.h"
 #include "heightlight/error.h"
-#include "io/staged_output.h"
 #include "scratch_folder.h"
 
 using namespace heightlight;
@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 TEST_CASE("A committed folder holds its files and nothing else", "[io]") {
   const ScratchFolder scratch;
   {
-    StagedFolder out(scratch / "a/b/out/");
+    StagedFolder out(scratch / "a/b/out/", {}, {});
     write_text(out.file("one.txt"), "1");
     write_text(out.file("two.txt"), "2");
     CHECK_FALSE(fs::exists(out.final_path("one.txt")));
@@ -25,7 +25,7 @@ TEST_CASE("A committed folder holds its files and nothing else", "[io]") {
 TEST_CASE("A folder without commit leaves no trace, not even the folders it created", "[io]") {
   const ScratchFolder scratch;
   {
-    StagedFolder out(scratch / "a/b/out");
+    StagedFolder out(scratch / "a/b/out", {}, {});
     write_text(out.file("one.txt"), "1");
   }
   CHECK(scratch.entry_count() == 0);
@@ -35,7 +35,7 @@ TEST_CASE("A folder without commit leaves what was there before", "[io]") {
   const ScratchFolder scratch;
   write_text(scratch / "one.txt", "old");
   {
-    StagedFolder out(scratch.path());
+    StagedFolder out(scratch.path(), {}, {});
     write_text(out.file("one.txt"), "new");
   }
   CHECK(read_text(scratch / "one.txt") == "old");
@@ -46,7 +46,7 @@ TEST_CASE("A commit replaces files of the same name and keeps the others", "[io]
   const ScratchFolder scratch;
   write_text(scratch / "one.txt", "old");
   write_text(scratch / "other.txt", "other");
-  StagedFolder out(scratch.path());
+  StagedFolder out(scratch.path(), {}, {});
   write_text(out.file("one.txt"), "new");
   out.commit();
   CHECK(read_text(scratch / "one.txt") == "new");
@@ -56,7 +56,7 @@ TEST_CASE("A commit replaces files of the same name and keeps the others", "[io]
 TEST_CASE("A commit that lacks a file names it and changes nothing", "[io]") {
   const ScratchFolder scratch;
   {
-    StagedFolder out(scratch / "out");
+    StagedFolder out(scratch / "out", {}, {});
     write_text(out.file("one.txt"), "1");
     out.file("never_written.txt");
     CHECK_THROWS_WITH(out.commit(), Contains("never_written.txt"));
@@ -67,9 +67,9 @@ TEST_CASE("A commit that lacks a file names it and changes nothing", "[io]") {
 TEST_CASE("A folder that cannot be made is refused by name, and nothing is left behind", "[io]") {
   const ScratchFolder scratch;
   const fs::path file = write_text(scratch / "file", "x");
-  CHECK_THROWS_WITH(StagedFolder(file), Contains(file.string()) && Contains("not a folder"));
-  CHECK_THROWS_WITH(StagedFolder(file / "below"), Contains((file / "below").string()));
-  CHECK_THROWS_AS(StagedFolder(scratch / ("new/" + std::string(300, 'x'))),
+  CHECK_THROWS_WITH(StagedFolder(file, {}, {}), Contains(file.string()) && Contains("not a folder"));
+  CHECK_THROWS_WITH(StagedFolder(file / "below", {}, {}), Contains((file / "below").string()));
+  CHECK_THROWS_AS(StagedFolder(scratch / ("new/" + std::string(300, 'x')), {}, {}),
                   Error);  // a name too long for any disk
   CHECK(scratch.entry_count() == 1);
 }
@@ -77,7 +77,7 @@ TEST_CASE("A folder that cannot be made is refused by name, and nothing is left 
 TEST_CASE("A folder in the place of a result is refused before work is spent", "[io]") {
   const ScratchFolder scratch;
   fs::create_directory(scratch / "result.csv");
-  StagedFolder out(scratch.path());
+  StagedFolder out(scratch.path(), {}, {});
   CHECK_THROWS_WITH(out.file("result.csv"), Contains("result.csv") && Contains("directory"));
   CHECK_THROWS_WITH(StagedFile(scratch / "result.csv"), Contains("result.csv") && Contains("directory"));
 }

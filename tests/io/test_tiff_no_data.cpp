@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "io/tiff_no_data.h"
+#include "files/tiff_no_data.h"
 #include "scratch_folder.h"
 
 using namespace heightlight;

@@ -1,10 +1,10 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "core/hash.h"
+#include "base/hash.h"
+#include "fit/bootstrap.h"
+#include "fit/least_squares.h"
 #include "heightlight/error.h"
-#include "models/bootstrap.h"
-#include "models/least_squares.h"
 #include "scratch_folder.h"
 
 namespace heightlight {

@@ -5,7 +5,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "heightlight/models.h"
+#include "heightlight/closed_forms.h"
 #include "test_maps.h"
 
 namespace heightlight {

@@ -4,7 +4,7 @@
 #include <sstream>
 #include <string>
 
-#include "models/shader_text.h"
+#include "heightlight/closed_forms.h"
 #include "scratch_folder.h"
 
 namespace heightlight {

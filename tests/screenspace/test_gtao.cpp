@@ -3,7 +3,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/parallel.h"
+#include "base/parallel.h"
 #include "heightlight/error.h"
 #include "heightlight/screenspace.h"
 #include "published_gtao.h"

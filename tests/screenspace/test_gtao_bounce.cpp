@@ -2,8 +2,8 @@
 #include <cmath>
 #include <vector>
 
-#include "core/parallel.h"
-#include "heightlight/models.h"
+#include "base/parallel.h"
+#include "heightlight/closed_forms.h"
 #include "heightlight/screenspace.h"
 #include "screenspace/gtao_bounce_kernel.h"
 #include "test_maps.h"

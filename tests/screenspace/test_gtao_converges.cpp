@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/parallel.h"
+#include "base/parallel.h"
 #include "heightlight/screenspace.h"
 #include "screenspace/gtao_kernel.h"
 #include "shared_data.h"

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/parallel.h"
+#include "base/parallel.h"
 #include "heightlight/error.h"
 #include "heightlight/screenspace.h"
 #include "screenspace/hbao_kernel.h"

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "heightlight/models.h"
+#include "heightlight/closed_forms.h"
 #include "stability/hard_maps.h"
 #include "transport/simulated.h"
 

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <string>
 
-#include "core/parallel.h"
+#include "base/parallel.h"
 #include "heightlight/error.h"
 #include "heightlight/transport.h"
 #include "test_maps.h"

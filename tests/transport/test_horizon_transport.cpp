@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/hash.h"
-#include "core/parallel.h"
+#include "base/hash.h"
+#include "base/parallel.h"
 #include "heightlight/error.h"
 #include "heightlight/transport.h"
 #include "test_maps.h"

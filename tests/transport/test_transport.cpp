@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/parallel.h"
+#include "base/parallel.h"
 #include "heightlight/error.h"
 #include "test_maps.h"
 #include "transport/simulated.h"

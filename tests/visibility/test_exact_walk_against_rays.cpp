@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "core/hash.h"
-#include "core/parallel.h"
+#include "base/hash.h"
+#include "base/parallel.h"
 #include "shared_data.h"
 #include "test_maps.h"
 #include "visibility/exact_walk.h"

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/parallel.h"
+#include "base/parallel.h"
 #include "shared_data.h"
 #include "test_maps.h"
 #include "visibility/exact_walk.h"

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "core/gauss_legendre.h"
-#include "core/hash.h"
-#include "core/parallel.h"
+#include "base/gauss_legendre.h"
+#include "base/hash.h"
+#include "base/parallel.h"
 #include "heightlight/error.h"
 #include "visibility/exact_sky.h"
 #include "visibility/horizon_sky.h"

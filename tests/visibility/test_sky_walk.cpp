@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/parallel.h"
+#include "base/parallel.h"
 #include "visibility/exact_walk.h"
 #include "visibility/horizon_sky.h"
 #include "visibility/walked_tiles.h"

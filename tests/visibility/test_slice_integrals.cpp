@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/hash.h"
+#include "base/hash.h"
 #include "visibility/slice_integrals.h"
 
 namespace heightlight {

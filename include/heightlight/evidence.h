@@ -1,0 +1,91 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "heightlight/transport.h"
+#include "heightlight/visibility.h"
+
+// What is known of a solution beside the solution: how it was found, what it errs by, how well energy is
+// kept, what it cost. One type for all who solve.
+
+namespace heightlight {
+
+/// Ways of finding what receivers see.
+enum class Visibility {
+  horizon_walks,  ///< planned for the error wanted: the fast way
+  exact_slices,   ///< along every azimuth exactly, in double precision
+  rays            ///< to the closest hit
+};
+
+/// What a sky's maps err by on receivers picked by a hash, against exact profiles along many azimuths. RMS;
+/// absent where it was not wanted.
+struct SkyCheck {
+  int receivers = 0;
+  int azimuths = 0;
+  double ambient_occlusion = 0;
+  double sky_view_factor = 0;
+  std::optional<double> bent_normal_rad;  ///< angle
+  std::optional<double> harmonics;        ///< of a coefficient
+};
+
+/// What must hold of any surface, as measured on this one.
+struct EnergyCheck {
+  double row_sum_max_error = 0;   ///< |sky + Σ F − 1|
+  double sum_max_error = 0;       ///< |E₀ + … + E_K + tail − 1| at ρ = 1, in units of π
+  double mean_total_over_pi = 1;  ///< mean of that sum
+  double tail_mean = 0;           ///< of the tail after K bounces at ρ = 1, E/π
+  double tail_max = 0;
+  double spectral_radius = 0;
+  double solver_residual = 0;  ///< largest relative residual of the linear solves
+  int solver_iterations = 0;   ///< largest number of iterations among them
+};
+
+/// The mean sky view factor of what texels see, weighted by how much of it they see.
+struct SeenSky {
+  double expected = 1;  ///< by reciprocity, from the sky view factor and the normals alone
+  double deep = 1;      ///< t of the closed forms: what the deepest places see, tuned to the whole map
+  double mean = 1;  ///< as the first bounce brings it; the two part where samples don't resolve the surface
+};
+
+/// Wall seconds of each step.
+struct SolveTimes {
+  double visibility = 0;  ///< pilot, walks, links
+  double transport = 0;   ///< setting up the operator: for stored links, counting and checking them
+  double bounces = 0;     ///< without what the sink of the bounces took
+  double sink = 0;        ///< what the sink of the bounces took
+  double check = 0;       ///< estimating the errors
+};
+
+struct Evidence {
+  // How it was found.
+  Visibility visibility = Visibility::horizon_walks;
+  double error_wanted = 0;          ///< RMSE; 0 where rays or exact slices aim at none
+  int azimuths = 0;                 ///< of the sky; 0 of rays
+  int rays = 0;                     ///< 0 of walks and slices
+  std::uint64_t seed = 1;           ///< of every random choice
+  std::optional<HorizonPlan> plan;  ///< of horizon walks; its links mean nothing where there are none
+  bool has_links = false;           ///< an operator was built, stored or to be walked again
+  std::uint64_t links = 0;          ///< stored
+  std::uint64_t link_bytes = 0;
+  int bounces = 0;  ///< gathered one after the other
+
+  // What it errs by.
+  std::optional<double> sky_rmse;     ///< of A: the best figure there is; absent where no receiver is
+  std::optional<SkyCheck> sky_check;  ///< of the sky's maps
+  std::vector<HorizonCheck>
+      total_checks;  ///< per albedo, of A and of the total in the channel that reflects most
+
+  // How well energy is kept, where single bounces were asked for.
+  std::optional<EnergyCheck> energy;
+  std::optional<SeenSky> seen;
+
+  // What it cost.
+  SolveTimes seconds;
+  std::uint64_t estimated_bytes =
+      0;  ///< of memory, links included, as estimated beforehand for the worst moment
+  int threads = 1;
+};
+
+}  // namespace heightlight

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "heightlight/curves.h"
+#include "heightlight/heightmap.h"
+
+// Heightmaps from files, and curves to and from tables: the library heightlight::files, on top of
+// heightlight::core.
+
+namespace heightlight {
+
+/// How the samples of a file become heights. Absent values take the defaults that each field names.
+struct LoadOptions {
+  std::optional<double>
+      relief;  ///< > 0; peak-to-valley of the result. Integer files: width / 10; others: as they are
+  std::optional<double>
+      relief_share;                  ///< > 0; the same over the width (spacing × columns). Excludes `relief`
+  std::optional<double> width;       ///< > 0; extent of the columns, world units. Default 1. Excludes `texel`
+  std::optional<Spacing> texel;      ///< spacing; default width / columns, or an Esri grid's own cell size
+  std::optional<Boundary> boundary;  ///< default `open` for Esri grids, `tile` for images
+  std::optional<double> no_data;     ///< the value, as stored in the file, that means "missing"
+  std::optional<std::string> channel;  ///< name (any case) or 0-based index; default: the only one, or grey
+                                       ///< where all agree at every texel (alpha left out)
+  int shrink = 1;       ///< means of shrink × shrink samples take their place; must divide both sides
+  bool invert = false;  ///< the file holds depths: the highest value is the lowest place
+};
+
+/// Levels are counted up to here: as many as 16 bits can tell apart.
+constexpr std::size_t kMostLevels = 65536;
+
+/// What a file turned out to hold, before and after it became a heightmap.
+struct SourceFacts {
+  std::string format;       ///< "png", "esri ascii grid", "openexr", …
+  std::string sample_type;  ///< "uint8", "int8", … "int32", "half", "float", "double", "text"
+  int bits = 0;             ///< per sample; 0 for text
+  bool is_integer = false;  ///< samples are levels without a unit, mapped to [0, relief]
+  int channels = 0;
+  std::string channel;  ///< what was read: "Y", "R", "grey (R = G = B)"
+  std::size_t levels =
+      0;  ///< distinct values among the samples present; kMostLevels + 1 means more than kMostLevels
+  double lowest = 0;  ///< of the samples present, as stored in the file
+  double highest = 0;
+  std::optional<double> declared_no_data;  ///< from the header of an Esri grid, or GDAL's tag in a TIFF
+  std::string sha256;                      ///< of the file's bytes, hexadecimal
+};
+
+struct LoadedHeightmap {
+  Heightmap map;
+  SourceFacts facts;
+};
+
+/// Reads a heightmap: PNG of 8 and 16 bits, Esri ASCII grids (`.asc`), and what OpenImageIO reads (EXR, TIFF,
+/// JPEG, TGA, HDR). The format follows from the file's content, not from its name, save for `.asc`. Integer
+/// samples are stretched so that the lowest present is 0 and the highest `relief`; float samples are heights,
+/// stretched likewise only where `relief` is given. What is stretched has base 0; a level map stays level.
+/// Samples equal to `no_data` or to the value that the file itself declares, NaN and ±infinity go missing.
+/// `shrink` comes last, on heights as stretched, so that the relief of what is left may be less.
+/// `width` sets the spacing along the rows, and that of an Esri grid along the columns in proportion.
+/// `memory_limit` (bytes) is checked against the header's size before samples are read.
+/// Throws Error naming `path` and what is wrong: missing, a directory, empty, truncated or damaged, no known
+/// format, 0 × 0, larger than memory or 2^31 samples, nothing but missing samples, heights beyond float,
+/// channels that differ without `channel`, a cell size in degrees without `texel` (the message gives it in
+/// metres); UsageError for options outside their range, `width` with `texel`, or a `channel` that the file
+/// does not have.
+LoadedHeightmap load_heightmap(const std::filesystem::path& path, const LoadOptions& options,
+                               std::uint64_t memory_limit);
+
+/// The first line of `curves.csv`.
+constexpr const char* kCurvesHeader = "ao_kind,bin,ao_lo,ao_hi,ao_mean,count,bounce,mean,stddev,p05,p50,p95";
+
+/// Writes `curves.csv`: one line per kind, bin and bounce, in this order,
+/// both kinds below each other, numbers with as many digits as a double needs. Throws Error naming the file.
+void write_curves_csv(const std::filesystem::path& path, const std::vector<BounceCurves>& curves);
+
+/// Reads such a file back: the columns by their names, in any order. The tail, which it does not hold, is
+/// what the means leave of 1. Throws Error naming the file, and the line, for a column that is missing, a
+/// number that is none or not finite, a kind of AO that is unknown or comes again after the other, bins out
+/// of order or without texels, bounces that don't follow on each other or of which bins have unlike numbers.
+std::vector<BounceCurves> read_curves_csv(const std::filesystem::path& path);
+
+}  // namespace heightlight

@@ -1,0 +1,122 @@
+#include <array>
+#include <charconv>
+#include <utility>
+#include <vector>
+
+#include "heightlight/closed_forms.h"
+
+namespace heightlight {
+namespace {
+
+constexpr const char* kHead =
+    R"(// Closed forms of the total irradiance E/pi (unoccluded = 1) after all bounces, by Heightlight.
+// albedo: that of the surface all around, in [0, 1], linear. Two kinds of ambient occlusion, both 1 = open:
+//   alpha  plain share of the hemisphere's solid angle that sees the sky
+//   sky    the same, cosine weighted (the AO of GTAO)
+// Feeding one where the other is wanted ruins the result.
+
+)";
+
+/// A form for three albedos at once.
+struct VectorForm {
+  const char* name;
+  const char* declared;  ///< arguments before the albedo
+  const char* passed;
+};
+constexpr std::array kVectorForms{
+    VectorForm{"uniform_neighbourhood", "float sky", "sky"},
+    VectorForm{"cubic", "float sky", "sky"},
+    VectorForm{"cubic_fitted", "float sky", "sky"},
+    VectorForm{"notes", "float alpha", "alpha"},
+    VectorForm{"notes_fitted", "float alpha", "alpha"},
+    VectorForm{"bounced", "float sky, float seen", "sky, seen"},
+};
+
+/// Nine digits tell all floats apart; a point makes an integer a float.
+std::string literal(double value) {
+  std::array<char, 40> digits{};
+  const auto end =
+      std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::general, 9);
+  std::string text(digits.data(), end.ptr);
+  if (text.find_first_of(".e") == std::string::npos) text += ".0";
+  return text;
+}
+
+/// What stands for each $name.
+using Replacements = std::vector<std::pair<std::string, std::string>>;
+
+template <class Constants, std::size_t kCount>
+Replacements list_constants(const FormConstant<Constants> (&constants)[kCount], const Constants& values,
+                            const std::string& suffix = "") {
+  Replacements all{{"suffix", suffix}};
+  for (const FormConstant<Constants>& constant : constants) {
+    all.emplace_back(constant.name, literal(values.*constant.value));
+  }
+  return all;
+}
+
+bool is_name(char character) {
+  return (character >= 'a' && character <= 'z') || character == '_' || (character >= '0' && character <= '9');
+}
+
+/// The text with each $name in it replaced. Where no replacement has a name, nothing takes its place.
+std::string fill_in(const std::string& text, const Replacements& replacements) {
+  std::string filled;
+  for (std::size_t i = 0; i < text.size();) {
+    if (text[i] != '$') {
+      filled += text[i++];
+      continue;
+    }
+    std::size_t end = i + 1;
+    while (end < text.size() && is_name(text[end])) ++end;
+    const std::string name = text.substr(i + 1, end - i - 1);
+    for (const auto& [known, value] : replacements) {
+      if (known == name) filled += value;
+    }
+    i = end;
+  }
+  return filled;
+}
+
+std::string vector_form(const VectorForm& form, const std::string& three_floats) {
+  const std::string call = std::string("heightlight_") + form.name + '(' + form.passed + ", albedo.";
+  return three_floats + " heightlight_" + form.name + '(' + form.declared + ", " + three_floats +
+         " albedo) {\n  return " + three_floats + '(' + call + "x), " + call + "y), " + call + "z));\n}\n";
+}
+
+const char* three_floats(ShaderLanguage language) {
+  return language == ShaderLanguage::glsl ? "vec3" : "float3";
+}
+
+}  // namespace
+
+std::string shader_text(ShaderLanguage language, const ShaderConstants& constants) {
+  Replacements seen = list_constants(kSeenConstants, constants.seen);
+  seen.emplace_back("seen_albedo", literal(kSeenAlbedo));
+  seen.emplace_back("blur_sigma", literal(kBlurSigma));
+  std::string text = kHead;
+  const auto append = [&text](const std::string& part) { (text += part) += '\n'; };
+  append(kShareShader);
+  append(kUniformNeighbourhoodText.shader);
+  append(fill_in(kCubicText.shader, list_constants(kCubicConstants, CubicConstants{})));
+  append(fill_in(kCubicText.shader, list_constants(kCubicConstants, constants.cubic, "_fitted")));
+  // The fitted form shares the sum of the bounces with the published one.
+  const std::string notes = kNotesText.shader;
+  const std::string form = notes.substr(notes.find("\n\n") + 2);
+  append(fill_in(notes, list_constants(kNotesConstants, NotesConstants{})));
+  append(fill_in(form, list_constants(kNotesConstants, constants.notes, "_fitted")));
+  for (const FormText* one :
+       {&kBouncedText, &kSeenFromSkyText, &kSeenFromMapText, &kSeenFromDeepText, &kSeenFromBlurText}) {
+    append(fill_in(one->shader, seen));
+  }
+  text += "// The same for albedos of three channels.\n";
+  for (const VectorForm& one : kVectorForms) text += vector_form(one, three_floats(language));
+  return text;
+}
+
+std::string stored_pair_shader(ShaderLanguage language) {
+  const std::string two = language == ShaderLanguage::glsl ? "vec2" : "float2";
+  return fill_in(kStoredPairShader, {{"2", two}, {"3", three_floats(language)}});
+}
+
+}  // namespace heightlight

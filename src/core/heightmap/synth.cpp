@@ -1,0 +1,83 @@
+#include "heightlight/synth.h"
+
+#include <algorithm>
+
+#include "heightlight/error.h"
+#include "heightmap/synth_shapes.h"
+
+namespace heightlight {
+namespace {
+
+using MakeShape = Image<float> (*)(int size, std::uint64_t seed);
+
+struct Recipe {
+  SynthShape shape;
+  MakeShape make;
+};
+
+// Lowest to 0, highest to 1.
+Image<float> stretched(Image<float> image) {
+  const auto [lowest, highest] = std::minmax_element(image.values.begin(), image.values.end());
+  const float low = *lowest;
+  const float range = *highest - low;
+  for (float& height : image.values) height = range > 0 ? (height - low) / range : 0;
+  return image;
+}
+
+template <Image<float> (*Make)(int)>
+Image<float> analytic(int size, std::uint64_t /*seed*/) {
+  return Make(size);
+}
+
+template <Image<float> (*Make)(int, std::uint64_t)>
+Image<float> natural(int size, std::uint64_t seed) {
+  return stretched(Make(size, seed));
+}
+
+const std::vector<Recipe>& recipes() {
+  static const std::vector<Recipe> kRecipes{
+      {{"flat", "level ground", true}, analytic<synth::flat>},
+      {{"plane", "tilted plane, rising to the right", false}, analytic<synth::plane>},
+      {{"bowl", "pit in a plain, rim radius 0.35; a true spherical cap at relief 0.25 of the width", true},
+       analytic<synth::bowl>},
+      {{"trench", "endless trench with upright walls, a quarter of the map wide", true},
+       analytic<synth::trench>},
+      {{"groove", "endless V-groove, half of the map wide", true}, analytic<synth::groove>},
+      {{"cliff", "one upright wall in the middle", false}, analytic<synth::cliff>},
+      {{"steps", "staircase of eight treads", false}, analytic<synth::steps>},
+      {{"sines", "four crossed sine waves, smooth", true}, analytic<synth::sines>},
+      {{"fbm", "hills: fractal noise from a quarter of the map down to the texel", true},
+       natural<synth::fbm>},
+      {{"cobbles", "worn cobblestones set in rough sand", true}, natural<synth::cobbles>},
+      {{"brick", "weathered brick wall in running bond, with chips, pits, cracks and raked joints", true},
+       natural<synth::brick>},
+  };
+  return kRecipes;
+}
+
+}  // namespace
+
+const std::vector<SynthShape>& synth_shapes() {
+  static const std::vector<SynthShape> kShapes = [] {
+    std::vector<SynthShape> shapes;
+    for (const Recipe& recipe : recipes()) shapes.push_back(recipe.shape);
+    return shapes;
+  }();
+  return kShapes;
+}
+
+Image<float> synthesize(const std::string& shape, int size, std::uint64_t seed) {
+  constexpr int kLargestSize = 32768;
+  if (size < 1 || size > kLargestSize) {
+    throw UsageError("size", std::to_string(size),
+                     "a heightmap has 1 to " + std::to_string(kLargestSize) + " texels on a side");
+  }
+  std::string known;
+  for (const Recipe& recipe : recipes()) {
+    if (recipe.shape.name == shape) return recipe.make(size, seed);
+    known += (known.empty() ? "" : ", ") + recipe.shape.name;
+  }
+  throw UsageError("there is no shape '" + shape + "'; known are " + known);
+}
+
+}  // namespace heightlight

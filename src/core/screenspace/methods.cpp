@@ -1,0 +1,215 @@
+#include <cmath>
+
+#include "base/digits.h"
+#include "heightlight/screenspace.h"
+#include "screenspace/relaxed_points.h"
+
+// The table of methods. To add one: write its file, declare its function in heightlight/screenspace.h, and
+// add a line below (or a loop of lines).
+
+namespace heightlight {
+namespace {
+
+using Albedos = std::vector<SurfaceAlbedo>;
+
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+
+/// From reliefs to world units. A level map has no relief to measure by, and nothing to reach for.
+template <class Options>
+Options in_world_units(Options options, const DepthBuffer& depth) {
+  if (std::isfinite(options.reach) && depth.relief > 0) options.reach *= depth.relief;
+  return options;
+}
+
+std::string slices_in_words(int slices, int steps, double reach, StepDistribution distribution,
+                            DepthSampling sampling, DirectionNoise noise) {
+  std::string words = in_digits(static_cast<double>(slices)) + " x " + in_digits(static_cast<double>(steps));
+  words += std::isinf(reach) ? std::string("; no end") : "; reach " + in_digits(static_cast<double>(reach));
+  if (distribution == StepDistribution::uniform) words += "; uniform";
+  if (distribution == StepDistribution::stratified) words += "; stratified";
+  if (sampling == DepthSampling::mesh) words += "; mesh";
+  if (noise == DirectionNoise::spatial) words += "; 16 turns";
+  if (noise == DirectionNoise::temporal) words += "; 96 turns";
+  return words;
+}
+
+std::string in_words(const GtaoOptions& options) {
+  std::string words = slices_in_words(options.slices, options.steps, options.reach, options.distribution,
+                                      options.sampling, options.noise);
+  if (options.falloff > 0) words += "; falloff " + in_digits(static_cast<double>(options.falloff));
+  if (options.thickness > 0) words += "; thickness " + in_digits(static_cast<double>(options.thickness));
+  if (options.divide_by_open) words += "; divided by open";
+  if (options.bent_normal) words += "; bent normal";
+  return words;
+}
+
+/// `options` has its reach in reliefs.
+ScreenSpaceMethod gtao_line(const GtaoOptions& options, bool shown = false) {
+  return {"gtao", in_words(options), shown, [options](const DepthBuffer& depth, const Albedos&) {
+            return gtao(depth, in_world_units(options, depth));
+          }};
+}
+
+GtaoOptions gtao_preset(int slices, int steps, double reach, DirectionNoise noise) {
+  GtaoOptions options;
+  options.slices = slices;
+  options.steps = steps;
+  options.reach = reach;
+  options.noise = noise;
+  return options;
+}
+
+struct Preset {
+  int slices, steps;
+};
+
+/// The usual four, and file 000's single direction of twelve steps.
+constexpr Preset kPresets[] = {{1, 2}, {2, 2}, {3, 3}, {9, 3}, {1, 6}};
+
+/// Reach of the variants below: the best of those tried on four maps.
+constexpr double kUsualReach = 1;
+
+void add_gtao_presets(std::vector<ScreenSpaceMethod>& methods) {
+  for (const Preset& preset : kPresets) {
+    for (const double reach : {0.5, 1.0, 2.0, 4.0}) {
+      methods.push_back(gtao_line(gtao_preset(preset.slices, preset.steps, reach, DirectionNoise::spatial),
+                                  reach == kUsualReach));
+    }
+    methods.push_back(gtao_line(gtao_preset(preset.slices, preset.steps, kUsualReach, DirectionNoise::none)));
+    methods.push_back(
+        gtao_line(gtao_preset(preset.slices, preset.steps, kUsualReach, DirectionNoise::temporal)));
+  }
+}
+
+/// The 3 × 3 preset, one thing changed at a time.
+void add_gtao_variants(std::vector<ScreenSpaceMethod>& methods) {
+  const GtaoOptions preset = gtao_preset(3, 3, kUsualReach, DirectionNoise::spatial);
+  const auto add = [&](auto&& change) {
+    GtaoOptions options = preset;
+    change(options);
+    methods.push_back(gtao_line(options));
+  };
+  add([](GtaoOptions& o) { o.distribution = StepDistribution::uniform; });
+  add([](GtaoOptions& o) { o.distribution = StepDistribution::stratified; });
+  add([](GtaoOptions& o) { o.sampling = DepthSampling::mesh; });
+  add([](GtaoOptions& o) { o.falloff = 0.5; });
+  add([](GtaoOptions& o) { o.divide_by_open = true; });
+  add([](GtaoOptions& o) { o.bent_normal = true; });
+  for (const double thickness : {0.01, 0.05, 0.2}) add([=](GtaoOptions& o) { o.thickness = thickness; });
+}
+
+GtaoOptions without_noise(int slices, int steps) {
+  GtaoOptions options = gtao_preset(slices, steps, kUnlimited, DirectionNoise::none);
+  options.sampling = DepthSampling::mesh;
+  options.divide_by_open = true;
+  return options;
+}
+
+/// How fast slices and steps converge, each with plenty of the other; and what thickness does in the limit.
+void add_gtao_sweeps(std::vector<ScreenSpaceMethod>& methods) {
+  for (const int slices : {2, 4, 8, 16, 32}) methods.push_back(gtao_line(without_noise(slices, 128)));
+  for (const int steps : {8, 16, 32, 64}) methods.push_back(gtao_line(without_noise(32, steps)));
+  GtaoOptions converged = without_noise(64, 1024);
+  converged.bent_normal = true;
+  methods.push_back(gtao_line(converged, true));
+  GtaoOptions thick = without_noise(32, 64);
+  for (const double thickness : {0.001, 0.01}) {
+    thick.thickness = thickness;
+    methods.push_back(gtao_line(thick, thickness == 0.01));
+  }
+}
+
+void add_gtao_bounces(std::vector<ScreenSpaceMethod>& methods) {
+  const auto add = [&](const GtaoOptions& options, bool shown) {
+    methods.push_back(
+        {"gtao with bounce", in_words(options), shown, [options](const DepthBuffer& depth, const Albedos&) {
+           return gtao_with_bounce(depth, in_world_units(options, depth));
+         }});
+  };
+  add(gtao_preset(3, 3, kUsualReach, DirectionNoise::spatial), true);
+  add(gtao_preset(9, 6, kUsualReach, DirectionNoise::spatial), false);
+  add(without_noise(16, 64), true);
+}
+
+void add_hbao(std::vector<ScreenSpaceMethod>& methods) {
+  const auto add = [&](HbaoOptions options, bool shown) {
+    std::string words = slices_in_words(options.slices, options.steps, options.reach, options.distribution,
+                                        options.sampling, options.noise);
+    if (options.attenuated) words += "; attenuated";
+    methods.push_back({"hbao", words, shown, [options](const DepthBuffer& depth, const Albedos&) {
+                         return hbao(depth, in_world_units(options, depth));
+                       }});
+  };
+  HbaoOptions options;
+  for (const double reach : {0.5, 1.0, 2.0, 4.0}) {
+    options.reach = reach;
+    add(options, reach == 2);
+  }
+  options.attenuated = false;
+  for (const double reach : {0.5, 1.0, 2.0, 4.0}) {
+    options.reach = reach;
+    add(options, false);
+  }
+  options = {64,         128,  StepDistribution::quadratic, DepthSampling::mesh, DirectionNoise::none,
+             kUnlimited, false};
+  add(options, true);
+}
+
+void add_ambient_transfer(std::vector<ScreenSpaceMethod>& methods) {
+  const auto add = [&](const AmbientTransferOptions& options, bool shown) {
+    relaxed_points(options.samples);  // which a renderer has in its code
+    std::string words = in_digits(static_cast<double>(options.samples)) + " samples" +
+                        "; m = " + in_digits(static_cast<double>(options.tests)) +
+                        (options.square_root ? "; root" : "; step") + "; reach " +
+                        in_digits(static_cast<double>(options.reach));
+    if (options.noise == DirectionNoise::spatial) words += "; 16 turns";
+    methods.push_back(
+        {"ambient transfer", words, shown, [options](const DepthBuffer& depth, const Albedos& albedos) {
+           return ambient_transfer(depth, albedos, in_world_units(options, depth));
+         }});
+  };
+  for (const bool square_root : {false, true}) {
+    for (const int tests : {1, 2}) {
+      for (const double reach : {0.25, 0.5, 1.0, 2.0}) {
+        add({16, tests, square_root, DirectionNoise::spatial, reach}, reach == 1 && tests == 2);
+      }
+    }
+  }
+  add({16, 1, false, DirectionNoise::none, 1}, false);
+  add({64, 2, false, DirectionNoise::spatial, 1}, false);
+  add({256, 32, false, DirectionNoise::none, 4}, false);
+}
+
+void add_ssdo(std::vector<ScreenSpaceMethod>& methods) {
+  const auto add = [&](const SsdoOptions& options, bool shown) {
+    relaxed_points(options.samples);
+    std::string words = in_digits(static_cast<double>(options.samples)) + " samples" + "; reach " +
+                        in_digits(static_cast<double>(options.reach));
+    if (options.noise == DirectionNoise::spatial) words += "; 16 turns";
+    methods.push_back({"ssdo", words, shown, [options](const DepthBuffer& depth, const Albedos& albedos) {
+                         return ssdo(depth, albedos, in_world_units(options, depth));
+                       }});
+  };
+  for (const double reach : {0.5, 1.0, 2.0, 4.0}) add({16, DirectionNoise::spatial, reach}, reach == 2);
+  add({16, DirectionNoise::none, 2}, false);
+  add({64, DirectionNoise::spatial, 2}, false);
+}
+
+}  // namespace
+
+const std::vector<ScreenSpaceMethod>& screen_space_methods() {
+  static const std::vector<ScreenSpaceMethod> kMethods = [] {
+    std::vector<ScreenSpaceMethod> methods;
+    add_gtao_presets(methods);
+    add_gtao_variants(methods);
+    add_gtao_sweeps(methods);
+    add_gtao_bounces(methods);
+    add_hbao(methods);
+    add_ambient_transfer(methods);
+    add_ssdo(methods);
+    return methods;
+  }();
+  return kMethods;
+}
+
+}  // namespace heightlight

@@ -1,0 +1,87 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "heightlight/error.h"
+#include "solve/solver.h"
+#include "visibility/reach_table.h"
+
+namespace heightlight {
+namespace {
+
+constexpr int kMostBounces = 1000;
+
+void check_albedo(const Surface& surface, const Albedo& albedo) {
+  if (albedo.channels() == 0 || (!albedo.constant.empty() && !albedo.varying.empty())) {
+    throw UsageError("albedo", "", "must have constant or varying channels, and not both");
+  }
+  const auto in_range = [](double value) { return value >= 0 && value <= 1; };
+  const auto check = [&](const std::vector<double>& values) {
+    if (!std::all_of(values.begin(), values.end(), in_range))
+      throw UsageError("albedo", "", "must be in [0, 1]");
+  };
+  check(albedo.constant);
+  for (const TexelVector& values : albedo.varying) {
+    if (values.size() != surface.map.height.size()) {
+      throw UsageError("albedo", "", "must have a value for every texel of the map");
+    }
+    check(values);
+  }
+}
+
+void check_direct(const Surface& surface, const Wanted& wanted) {
+  if (wanted.direct.empty()) return;
+  if (wanted.direct.size() != surface.map.height.size()) {
+    throw UsageError("direct", "", "must have a value for every texel of the map");
+  }
+  const auto is_light = [](double value) { return value >= 0 && std::isfinite(value); };
+  if (!std::all_of(wanted.direct.begin(), wanted.direct.end(), is_light)) {
+    throw UsageError("direct", "", "must be finite and not negative");
+  }
+  if (wanted.bounces > 0 || wanted.seen) {
+    throw UsageError("direct", "", "is for totals alone: single bounces and n are those of the sky's light");
+  }
+}
+
+void check_accuracy(const Accuracy& accuracy, const Wanted& wanted) {
+  if (accuracy.visibility == Visibility::rays) {
+    check_ray_options({.rays = accuracy.rays, .seed = accuracy.seed});
+    const bool more =
+        wanted.moments.first || wanted.moments.second || !wanted.horizon_rad.empty() || wanted.reach;
+    if (more) throw UsageError("visibility", "rays", "find shares of the sky and bounces, and nothing else");
+    return;
+  }
+  if (accuracy.azimuths != 0) check_azimuths(accuracy.azimuths);
+  if (accuracy.visibility == Visibility::exact_slices) return;
+  if (!(accuracy.error > 0) || accuracy.error > 1) {
+    throw UsageError("error", std::to_string(accuracy.error), "must be above 0, and 1 at most");
+  }
+}
+
+}  // namespace
+
+void check_request(const Surface& surface, const Request& request) {
+  const Wanted& wanted = request.wanted;
+  if (wanted.bounces < 0 || wanted.bounces > kMostBounces) {
+    throw UsageError("bounces", std::to_string(wanted.bounces),
+                     "must be from 1 to " + std::to_string(kMostBounces));
+  }
+  if (wanted.reach) check_reach(*wanted.reach);
+  for (const Albedo& albedo : wanted.totals) check_albedo(surface, albedo);
+  check_direct(surface, wanted);
+  check_accuracy(request.accuracy, wanted);
+}
+
+bool needs_operator(const Wanted& wanted) {
+  return !wanted.totals.empty() || wanted.seen || wanted.bounces > 0;
+}
+
+bool keeps_sky(const Wanted& wanted) {
+  return (wanted.sky || wanted.moments.first || wanted.moments.second) && !wanted.reach;
+}
+
+bool follows_from_bounces(const Wanted& wanted, const Albedo& albedo) {
+  return albedo.varying.empty() && wanted.direct.empty();
+}
+
+}  // namespace heightlight

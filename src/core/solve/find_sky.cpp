@@ -1,0 +1,85 @@
+#include "solve/reference_sky.h"
+#include "solve/solver.h"
+#include "transport/horizon_pilot.h"
+#include "transport/horizon_plan.h"
+#include "visibility/horizon_sky.h"
+
+namespace heightlight {
+namespace {
+
+/// Of the error wanted, that A may have where moments are wanted too: at an RMSE of 0.002 bent normals err by
+/// 0.1 to 0.4 degrees, and at most by 0.3 at this share of it (brick walls; other maps by half of that).
+constexpr double kMomentShare = 0.6;
+
+/// The plan that there is, or one made now. Sparse azimuths are planned without a reach, and left out with
+/// one.
+SkyPlan choose_plan(const Task& task, const Results& results) {
+  const Request& request = task.request;
+  if (request.accuracy.plan) return request.accuracy.plan->sky;
+  if (results.evidence.plan && !request.wanted.reach) return results.evidence.plan->sky;
+  HorizonPilot pilot(task.surface, request.accuracy.seed, request.watch);
+  SkyPlan plan = plan_sky(pilot, plan_goal(request, false, request.wanted.moments.first));
+  if (request.wanted.reach) {
+    plan.full_from = 0;
+    plan.full_share = 1;
+  }
+  return plan;
+}
+
+void take(HorizonSky sky, Results& results) {
+  results.ambient_occlusion = std::move(sky.ambient_occlusion);
+  results.sky_view_factor = std::move(sky.sky_view_factor);
+  results.moments = std::move(sky.moments);
+}
+
+void walk_sky_of(const Task& task, Results& results) {
+  const Request& request = task.request;
+  const Wanted& wanted = request.wanted;
+  const SkyPlan plan = choose_plan(task, results);
+  if (!results.evidence.plan) results.evidence.plan.emplace();
+  results.evidence.plan->sky = plan;
+  const HeightMips mips = build_height_mips(task.surface);
+  const bool wants_sky = wanted.sky || wanted.moments.first || wanted.moments.second;
+  if (wants_sky && results.sky_view_factor.size() == 0) {
+    take(walk_horizon_sky(task.surface, mips, plan, {.wanted = wanted.moments, .reach = wanted.reach},
+                          request.watch),
+         results);
+  }
+  if (wanted.horizon_rad.empty()) return;
+  results.horizons =
+      walk_horizons(task.surface, mips, plan.walk, wanted.horizon_rad, wanted.reach, request.watch);
+}
+
+}  // namespace
+
+HorizonGoal plan_goal(const Request& request, bool total_only, bool moments) {
+  return {.error = request.accuracy.error,
+          .total_only = total_only,
+          .azimuths = request.accuracy.azimuths,
+          .seed = request.accuracy.seed,
+          .sky_share = moments ? kMomentShare : 1};
+}
+
+void find_sky(const Task& task, Results& results) {
+  const Accuracy& accuracy = task.request.accuracy;
+  const Wanted& wanted = task.request.wanted;
+  switch (accuracy.visibility) {
+    case Visibility::horizon_walks:
+      walk_sky_of(task, results);
+      return;
+    case Visibility::exact_slices:
+      if (results.sky_view_factor.size() == 0) {
+        take(slice_sky(task.surface, results.evidence.azimuths,
+                       {.wanted = wanted.moments, .reach = wanted.reach}, task.request.watch),
+             results);
+      }
+      results.horizons = slice_horizons(task.surface, wanted.horizon_rad, wanted.reach, task.request.watch);
+      return;
+    case Visibility::rays:
+      take(cast_sky(task.surface, {.rays = accuracy.rays, .seed = accuracy.seed}, task.request.watch),
+           results);
+      return;
+  }
+}
+
+}  // namespace heightlight

@@ -1,0 +1,69 @@
+#include "heightlight/solve.h"
+#include "solve/solver.h"
+#include "surface/maximum_pyramid.h"
+#include "transport/light_mips.h"
+#include "visibility/height_mips.h"
+#include "visibility/horizon_sky.h"
+
+// What is held at once, from the types that hold it. The worst moment is the last gather, or the check after
+// it: the surface and its pyramids are there all the time, the sky's maps from then on.
+
+namespace heightlight {
+namespace {
+
+constexpr std::uint64_t kVector = sizeof(TexelVector::value_type);
+constexpr std::uint64_t kMap = sizeof(Map::value_type);
+
+std::uint64_t channels_of(const std::vector<Albedo>& albedos) {
+  std::uint64_t channels = 0;
+  for (const Albedo& albedo : albedos) channels += albedo.channels();
+  return channels;
+}
+
+/// Vectors of BiCGSTAB as Eigen has it (r, r₀, p, v, s, t, y, z, x and the right side), the product's copies
+/// of its argument, and what is gathered.
+constexpr std::uint64_t kSolverVectors = 10 + 3;
+
+/// Per texel, of the bounces and totals: their vectors beside the operator.
+std::uint64_t light_bytes(const Request& request) {
+  const Wanted& wanted = request.wanted;
+  const std::uint64_t channels = channels_of(wanted.totals);
+  const bool stores_links = request.accuracy.visibility != Visibility::horizon_walks;
+  std::uint64_t solver = 0;
+  for (const Albedo& albedo : wanted.totals) {
+    if (!follows_from_bounces(wanted, albedo)) solver = kSolverVectors * kVector;
+  }
+  std::uint64_t bytes = kVector * channels + (wanted.seen ? 2 * kMap : 0);
+  if (wanted.bounces > 0) {
+    // E_b, E_{b+1}, their sum, a weighted sum per channel and at kSeenAlbedo, the tail.
+    bytes += kVector * (4 + channels + 1);
+    if (stores_links) solver = kSolverVectors * kVector;
+    if (!request.sink) bytes += kVector * static_cast<std::uint64_t>(wanted.bounces + 1);
+  } else {
+    bytes +=
+        kVector * (2 + (wanted.seen ? 1 : 0)) + sizeof(float);  // E_b, E_{b+1}, n's own total, and their sum
+  }
+  return bytes + solver;
+}
+
+}  // namespace
+
+std::uint64_t estimate_memory(int width, int height, const Request& request) {
+  const Wanted& wanted = request.wanted;
+  const auto texels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+  std::uint64_t per_texel =
+      kMap + sizeof(Vector3) + horizon_sky_bytes(wanted.moments) + kMap * wanted.horizon_rad.size();
+  std::uint64_t pyramids = 2 * height_mips_bytes(width, height);  // the pilot's and the operator's
+  // Exact walks, which are the pilot's and the checks' too.
+  pyramids += maximum_pyramid_bytes(width, height);
+  if (needs_operator(wanted)) {
+    per_texel += kVector + light_bytes(request);  // the direct light
+    // What each receiver sees, and the light that it sees it by.
+    per_texel += kMap;
+    pyramids += light_mips_bytes(width, height);
+    if (wanted.reach && (wanted.sky || wanted.moments.first)) per_texel += horizon_sky_bytes({});
+  }
+  return texels * per_texel + pyramids;
+}
+
+}  // namespace heightlight

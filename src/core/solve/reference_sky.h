@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "heightlight/watch.h"
+#include "visibility/horizon_sky.h"
+
+namespace heightlight {
+
+/// The sky of every receiver by exact slices along `azimuths` azimuths, without links.
+HorizonSky slice_sky(const Surface& surface, int azimuths, const SkyTask& task, const Watch& watch);
+
+/// Elevations of exact horizons toward some azimuths, as walk_horizons gives them. A reach is taken to be
+/// sharp, and to lie on the map.
+std::vector<Map> slice_horizons(const Surface& surface, const std::vector<double>& azimuths_rad,
+                                const std::optional<Reach>& reach, const Watch& watch);
+
+/// The sky's shares of every receiver by rays, without links.
+HorizonSky cast_sky(const Surface& surface, const RayOptions& rays, const Watch& watch);
+
+}  // namespace heightlight

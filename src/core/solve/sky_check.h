@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+
+#include "heightlight/evidence.h"
+#include "heightlight/surface.h"
+#include "heightlight/watch.h"
+
+namespace heightlight {
+
+/// What is checked: maps of the sky, moments where there are any.
+struct CheckedSky {
+  const Map& ambient_occlusion;
+  const Map& sky_view_factor;
+  const SkyMoments& moments;
+};
+
+/// `seed` picks the receivers. Nothing where none is present.
+std::optional<SkyCheck> check_sky(const Surface& surface, const CheckedSky& sky,
+                                  const std::optional<Reach>& reach, std::uint64_t seed,
+                                  const Watch& watch = {});
+
+}  // namespace heightlight

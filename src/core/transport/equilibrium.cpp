@@ -1,0 +1,107 @@
+#include <Eigen/IterativeLinearSolvers>
+#include <Eigen/SparseCore>
+#include <cmath>
+
+#include "base/progress.h"
+#include "base/texel_algebra.h"
+#include "heightlight/transport.h"
+
+// x = source + F ρ x is solved as (I − F ρ) x = source. Plain iteration is the bounces themselves and takes
+// ln ε / ln λ of them, thousands in a deep well; BiCGSTAB takes a few dozen. Eigen runs it on anything that
+// it can multiply with a vector, given the traits below.
+
+namespace heightlight {
+class LossOperator;
+}
+
+namespace Eigen::internal {
+template <>
+struct traits<heightlight::LossOperator> : traits<SparseMatrix<double>> {};
+}  // namespace Eigen::internal
+
+namespace heightlight {
+
+/// I − F diag(ρ), known by its products only.
+class LossOperator : public Eigen::EigenBase<LossOperator> {
+ public:
+  using Scalar = double;
+  using RealScalar = double;
+  using StorageIndex = int;
+  enum { ColsAtCompileTime = Eigen::Dynamic, MaxColsAtCompileTime = Eigen::Dynamic, IsRowMajor = false };
+
+  LossOperator(const Transport& transport, const TexelVector& albedo, Progress& progress)
+      : transport_(transport), albedo_(albedo), progress_(progress) {}
+
+  Eigen::Index rows() const { return static_cast<Eigen::Index>(albedo_.size()); }
+  Eigen::Index cols() const { return rows(); }
+
+  template <class Right>
+  Eigen::Product<LossOperator, Right, Eigen::AliasFreeProduct> operator*(
+      const Eigen::MatrixBase<Right>& right) const {
+    return {*this, right.derived()};
+  }
+
+  Eigen::VectorXd times(const Eigen::VectorXd& x) const {
+    progress_.throw_if_stopped();
+    progress_.add(1);
+    return x - as_eigen(transport_.gather(to_texels(as_eigen(albedo_).cwiseProduct(x))));
+  }
+
+ private:
+  const Transport& transport_;
+  const TexelVector& albedo_;
+  Progress& progress_;
+};
+
+}  // namespace heightlight
+
+namespace Eigen::internal {
+template <class Right>
+struct generic_product_impl<heightlight::LossOperator, Right, SparseShape, DenseShape, GemvProduct>
+    : generic_product_impl_base<heightlight::LossOperator, Right,
+                                generic_product_impl<heightlight::LossOperator, Right>> {
+  template <class Destination>
+  static void scaleAndAddTo(Destination& destination, const heightlight::LossOperator& left,
+                            const Right& right, const double& scale) {
+    destination += scale * left.times(right);
+  }
+};
+}  // namespace Eigen::internal
+
+namespace heightlight {
+namespace {
+
+constexpr int kMostIterations = 2000;
+
+}  // namespace
+
+Equilibrium solve_equilibrium(const Transport& transport, const TexelVector& source,
+                              const TexelVector& albedo, const TexelVector& guess, const Watch& watch) {
+  Equilibrium result;
+  const double size = as_eigen(source).norm();
+  if (size == 0) {
+    result.irradiance = source;
+    return result;
+  }
+  Progress progress("equilibrium", 0, watch);
+  const LossOperator loss(transport, albedo, progress);
+  Eigen::BiCGSTAB<LossOperator, Eigen::IdentityPreconditioner> solver;
+  solver.setTolerance(transport.solver_tolerance());
+  solver.setMaxIterations(kMostIterations);
+  solver.compute(loss);
+  const Eigen::VectorXd solution = solver.solveWithGuess(as_eigen(source), as_eigen(guess));
+  result.iterations = static_cast<int>(solver.iterations());
+  result.residual = (as_eigen(source) - loss.times(solution)).norm() / size;
+  result.irradiance = to_texels(solution);
+  return result;
+}
+
+Equilibrium solve_tail(const Transport& transport, const BounceSeries& series, double albedo,
+                       const Watch& watch) {
+  const TexelVector constant(series.next.size(), albedo);
+  Equilibrium tail = solve_equilibrium(transport, series.next, constant, series.next, watch);
+  as_eigen(tail.irradiance) *= std::pow(albedo, series.bounces + 1);
+  return tail;
+}
+
+}  // namespace heightlight

@@ -1,0 +1,310 @@
+#include "transport/horizon_pilot.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include "base/hash.h"
+#include "base/parallel.h"
+#include "base/texel_algebra.h"
+#include "transport/exact_gather.h"
+#include "transport/link_replay.h"
+#include "transport/receiver_blocks.h"
+#include "visibility/horizon_sky.h"
+#include "visibility/sky_walk.h"
+#include "visibility/slice_integrals.h"
+
+namespace heightlight {
+namespace {
+
+constexpr std::int64_t kStrips = 12;
+constexpr int kRows = 8;
+constexpr int kExactPerStrip = 20;
+
+/// All tiles, in strips of kRows rows.
+std::vector<TileFrame> cut_strips(const Surface& surface) {
+  const TileGrid tiles(surface.width(), surface.height());
+  std::vector<TileFrame> strips;
+  for (std::int64_t i = 0; i < tiles.count(); ++i) {
+    const TileFrame tile = tiles.frame(i);
+    for (int row = 0; row < tile.rows; row += kRows) {
+      TileFrame strip = tile;
+      strip.first_row += row;
+      strip.rows = std::min(kRows, tile.rows - row);
+      strips.push_back(strip);
+    }
+  }
+  return strips;
+}
+
+double root_mean(double squares, std::size_t count) {
+  return count > 0 ? std::sqrt(squares / static_cast<double>(count)) : 0;
+}
+
+/// A of an exact view by every other azimuth; NaN where the sample is missing.
+double sky_by_even_azimuths(const ExactWalker& walker, const Vector3& normal, const SliceView& view) {
+  const Eigen::Vector3d n = as_eigen(normal).cast<double>().normalized();
+  double sky = 0;
+  double whole = 0;
+  for (std::size_t k = 0; k < view.horizon_rad.size(); k += 2) {
+    const double azimuth = walker.azimuth_rad(static_cast<int>(k));
+    const SliceNormal in_slice{n.x() * std::cos(azimuth) + n.y() * std::sin(azimuth), n.z()};
+    const double tangent = tangent_slope(in_slice);
+    const double horizon = std::max(std::tan(view.horizon_rad[k]), tangent);
+    whole += cosine_mass(in_slice, elevation_of_slope(tangent), {});
+    sky += cosine_mass(in_slice, elevation_of_slope(horizon), {});
+  }
+  return sky / whole;
+}
+
+}  // namespace
+
+double root_mean_square(const std::vector<double>& errors) {
+  double squares = 0;
+  for (const double error : errors) squares += error * error;
+  return root_mean(squares, errors.size());
+}
+
+HorizonPilot::HorizonPilot(const Surface& surface, std::uint64_t seed, const Watch& watch)
+    : surface_(surface), watch_(watch), mips_(build_height_mips(surface)) {
+  const std::vector<TileFrame> strips = cut_strips(surface);
+  const auto count = static_cast<std::int64_t>(strips.size());
+  const std::int64_t wanted = std::min(kStrips, count);
+  for (std::int64_t i = 0; i < wanted; ++i) {
+    // One from each of as many equal parts of the map.
+    const std::int64_t begin = count * i / wanted;
+    const std::int64_t end = count * (i + 1) / wanted;
+    const std::uint64_t pick = hash_combine(seed, static_cast<std::uint64_t>(i));
+    frames_.push_back(strips[static_cast<std::size_t>(
+        begin + static_cast<std::int64_t>(pick % static_cast<std::uint64_t>(end - begin)))]);
+  }
+  const ExactWalker walker(surface, kExactAzimuths);
+  std::vector<ExactReceiver> receivers(frames_.size() * kExactPerStrip);
+  Progress progress("pilot", static_cast<std::int64_t>(receivers.size()), watch);
+  parallel_for(
+      static_cast<std::int64_t>(receivers.size()),
+      [&](std::int64_t i) {
+        ExactReceiver& receiver = receivers[static_cast<std::size_t>(i)];
+        receiver.frame = static_cast<std::size_t>(i) / kExactPerStrip;
+        const TileFrame& frame = frames_[receiver.frame];
+        const std::uint64_t pick = hash_combine(seed + 1, static_cast<std::uint64_t>(i)) %
+                                   static_cast<std::uint64_t>(frame.rows * frame.columns);
+        receiver.row = static_cast<int>(pick) / frame.columns;
+        receiver.column = static_cast<int>(pick) % frame.columns;
+        const int row = frame.first_row + receiver.row;
+        const int column = frame.first_column + receiver.column;
+        walker.view(row, column, receiver.view);
+        receiver.even_sky = sky_by_even_azimuths(walker, surface.normal(row, column), receiver.view);
+      },
+      &progress);
+  std::copy_if(receivers.begin(), receivers.end(), std::back_inserter(exact_),
+               [](const ExactReceiver& receiver) { return !std::isnan(receiver.view.sky_view_factor); });
+}
+
+std::vector<float> HorizonPilot::walk_sky_of(const WalkOptions& options, EvenWalk* even) {
+  std::vector<AzimuthTable> azimuths;
+  for (int k = 0; k < options.azimuths; ++k) {
+    azimuths.push_back(make_azimuth_table(surface_, options, azimuth_rad(options, k)));
+  }
+  const int rings = ring_count(surface_, options);
+  constexpr std::size_t kBlocks = SkyBlocks().size();
+  std::vector<float> result(frames_.size() * WalkTile::kTexels);
+  if (even) {
+    even->sky.resize(result.size());
+    even->shares.resize(frames_.size() * kBlocks);
+  }
+  Progress progress("pilot", static_cast<std::int64_t>(frames_.size()), watch_);
+  parallel_for(
+      static_cast<std::int64_t>(frames_.size()),
+      [&](std::int64_t i) {
+        const auto strip = static_cast<std::size_t>(i);
+        const auto tile = std::make_unique<WalkTile>();
+        const auto sums = std::make_unique<SkySums>();
+        const auto far = std::make_unique<FarView>();
+        tile->load(surface_, mips_, options, rings, frames_[strip]);
+        const auto walk = [&](std::size_t first, std::size_t step) {
+          for (std::size_t k = first; k < azimuths.size(); k += step) {
+            look_far(*tile, azimuths[k], *far);
+            walk_sky(*tile, azimuths[k], *far, *sums);
+          }
+        };
+        const auto write = [&](std::vector<float>& sky) {
+          float* out = sky.data() + strip * WalkTile::kTexels;
+          for (std::size_t at = 0; at < WalkTile::kTexels; ++at) {
+            out[at] = tile->present[at] && sums->full[at] > 0 ? sums->sky[at] / sums->full[at] : -1;
+          }
+        };
+        if (even) {
+          walk(0, 2);
+          write(even->sky);
+          for (std::size_t block = 0; block < kBlocks; ++block) {
+            even->shares[strip * kBlocks + block] = surface_share(*tile, *sums, block);
+          }
+          walk(1, 2);
+        } else {
+          walk(0, 1);
+        }
+        write(result);
+      },
+      &progress);
+  return result;
+}
+
+double HorizonPilot::total_seen(double albedo) const {
+  double seen = 0;
+  double total = 0;
+  for (const ExactReceiver& receiver : exact_) {
+    const double sky = receiver.view.sky_view_factor;
+    seen += 1 - sky;
+    if (sky > 0) total += (1 - sky) * sky / (1 - albedo * (1 - sky));
+  }
+  return seen > 0 ? total / seen : 1;
+}
+
+SamplingError HorizonPilot::sampling_error(int fineness, float peak_share) {
+  EvenWalk even;
+  const std::vector<float> walked = walk_sky_of({kExactAzimuths, fineness, peak_share}, &even);
+  double squares = 0;
+  double own = 0;
+  for (const ExactReceiver& receiver : exact_) {
+    const std::size_t at = receiver.frame * WalkTile::kTexels +
+                           static_cast<std::size_t>(receiver.row * TileFrame::kSide + receiver.column);
+    const double error = double{walked[at]} - receiver.view.sky_view_factor;
+    const double even_error = double{even.sky[at]} - receiver.even_sky;
+    squares += error * error;
+    own += (even_error - error) * (even_error - error);  // half the halves' difference: of the mean of both
+  }
+  return {root_mean(std::max(squares - own, 0.0), exact_.size()),
+          root_mean(kExactAzimuths * own, exact_.size())};
+}
+
+const std::vector<float>& HorizonPilot::many_like(const WalkOptions& options) {
+  if (many_.empty() || many_options_.fineness != options.fineness ||
+      many_options_.peak_share != options.peak_share) {
+    many_options_ = options;
+    many_options_.azimuths = kManyAzimuths;
+    many_ = walk_sky_of(many_options_);
+  }
+  return many_;
+}
+
+double HorizonPilot::azimuth_error(const WalkOptions& options) {
+  const std::vector<float>& many = many_like(options);
+  const std::vector<float> few = walk_sky_of(options);
+  double squares = 0;
+  std::size_t count = 0;
+  for (std::size_t at = 0; at < few.size(); ++at) {
+    if (few[at] < 0) continue;
+    squares += double{few[at] - many[at]} * double{few[at] - many[at]};
+    ++count;
+  }
+  return root_mean(squares, count);
+}
+
+HorizonPilot::Sparse HorizonPilot::find_sparse(const WalkOptions& options, double error) {
+  struct Block {
+    double share = 0;
+    double loss = 0;  // squared errors of every other azimuth less those of all
+    int receivers = 0;
+  };
+  constexpr std::size_t kBlocks = SkyBlocks().size();
+  const std::vector<float>& many = many_like(options);
+  EvenWalk even;
+  const std::vector<float> all = walk_sky_of(options, &even);
+  std::vector<Block> blocks(even.shares.size());
+  double squares = 0;
+  std::size_t count = 0;
+  for (std::size_t at = 0; at < all.size(); ++at) {
+    if (all[at] < 0) continue;
+    const auto in_tile = static_cast<int>(at % WalkTile::kTexels);
+    Block& block = blocks[at / WalkTile::kTexels * kBlocks +
+                          sky_block(in_tile / WalkTile::kSide, in_tile % WalkTile::kSide)];
+    const double by_all = double{all[at] - many[at]} * double{all[at] - many[at]};
+    const double by_even = double{even.sky[at] - many[at]} * double{even.sky[at] - many[at]};
+    squares += by_all;
+    block.loss += by_even - by_all;
+    ++block.receivers;
+    ++count;
+  }
+  for (std::size_t i = 0; i < blocks.size(); ++i) blocks[i].share = even.shares[i];
+  std::sort(blocks.begin(), blocks.end(), [](const Block& a, const Block& b) { return a.share < b.share; });
+  const double most = error * error * static_cast<double>(count);
+  double full = static_cast<double>(count);
+  for (const Block& block : blocks) {
+    if (block.receivers == 0) continue;
+    if (squares + block.loss > most) {
+      return {block.share, full / static_cast<double>(count), root_mean(squares, count)};
+    }
+    squares += block.loss;
+    full -= block.receivers;
+  }
+  return {std::numeric_limits<double>::infinity(), 0, root_mean(squares, count)};
+}
+
+double HorizonPilot::link_error(const WalkOptions& options, const LightMips& light, const TexelVector& x) {
+  const std::vector<LinkAzimuth> azimuths = make_link_azimuths(surface_, options);
+  const int rings = ring_count(surface_, options);
+  std::vector<float> seen(frames_.size() * WalkTile::kTexels);
+  Progress progress("pilot", static_cast<std::int64_t>(frames_.size()), watch_);
+  parallel_for(
+      static_cast<std::int64_t>(frames_.size()),
+      [&](std::int64_t i) {
+        const TileFrame& frame = frames_[static_cast<std::size_t>(i)];
+        const BlockSet blocks = all_blocks(frame);
+        const auto tile = std::make_unique<WalkTile>();
+        std::vector<std::uint8_t> stream;
+        tile->load(surface_, mips_, options, rings, frame);
+        walk_links(*tile, azimuths, blocks, stream);
+        replay_links(frame, azimuths, blocks, stream.data(), light, seen.data() + i * WalkTile::kTexels);
+      },
+      &progress);
+  const auto value_of = [&x](std::size_t i) { return x[i]; };
+  std::vector<double> errors;
+  for (const ExactReceiver& receiver : exact_) {
+    const std::size_t at = receiver.frame * WalkTile::kTexels +
+                           static_cast<std::size_t>(receiver.row * TileFrame::kSide + receiver.column);
+    const double surface_share = 1 - receiver.view.sky_view_factor;
+    errors.push_back(surface_share * double{seen[at]} - gather_exactly(receiver.view, surface_, value_of));
+  }
+  return root_mean_square(errors);
+}
+
+std::vector<double> HorizonPilot::gather_errors(const TexelVector& x, const TexelVector& gathered,
+                                                const TexelVector& sky) const {
+  const auto value_of = [&x](std::size_t i) { return x[i]; };
+  std::vector<double> errors;
+  for (const ExactReceiver& receiver : exact_) {
+    const TileFrame& frame = frames_[receiver.frame];
+    const std::size_t texel =
+        surface_.map.height.index(frame.first_row + receiver.row, frame.first_column + receiver.column);
+    const double exact_share = 1 - receiver.view.sky_view_factor;
+    const double share = 1 - sky[texel];
+    const double seen = share > 0 ? gathered[texel] / share : 0;
+    errors.push_back(exact_share * seen - gather_exactly(receiver.view, surface_, value_of));
+  }
+  return errors;
+}
+
+HorizonPilot::Harmless HorizonPilot::find_harmless(const std::vector<double>& errors, const TexelVector& sky,
+                                                   double error) const {
+  std::vector<std::pair<double, double>> squares;  // by the surface_share of its block
+  for (std::size_t i = 0; i < exact_.size(); ++i) {
+    const TileFrame& frame = frames_[exact_[i].frame];
+    const double share =
+        surface_share(surface_, sky, frame.first_row + exact_[i].row, frame.first_column + exact_[i].column);
+    squares.emplace_back(share, errors[i] * errors[i]);
+  }
+  std::sort(squares.begin(), squares.end());
+  const double most = error * error * static_cast<double>(exact_.size());
+  double sum = 0;
+  for (const auto& [share, square] : squares) {
+    if (sum + square > most) return {share, root_mean(sum, exact_.size())};
+    sum += square;
+  }
+  return {std::numeric_limits<double>::infinity(), root_mean(sum, exact_.size())};
+}
+
+}  // namespace heightlight

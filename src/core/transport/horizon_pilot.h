@@ -1,0 +1,109 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "heightlight/transport.h"
+#include "transport/light_mips.h"
+#include "visibility/exact_walk.h"
+#include "visibility/height_mips.h"
+#include "visibility/walk_tile.h"
+
+namespace heightlight {
+
+/// 0 of none.
+double root_mean_square(const std::vector<double>& errors);
+
+/// An error that azimuths share, and one that each has for itself, of which the mean over many keeps little.
+/// Both are RMSE of A; `own` is that of one azimuth.
+struct SamplingError {
+  double shared = 0;
+  double own = 0;
+
+  double at(int azimuths) const { return std::hypot(shared, own / std::sqrt(azimuths)); }
+};
+
+/// Receivers on which ways of walking are tried before the whole map is walked: strips of tiles, and among
+/// them some that are walked exactly too.
+class HorizonPilot {
+ public:
+  /// `surface` and `watch` must outlive it.
+  HorizonPilot(const Surface& surface, std::uint64_t seed, const Watch& watch);
+
+  bool empty() const { return exact_.empty(); }
+
+  /// Mean total irradiance / π, at an albedo ρ, of what receivers see, 1 where they see nothing. By
+  /// reciprocity a place is seen as much as it sees itself, 1 − A; its total is taken as that of one that
+  /// sees its like, A / (1 − ρ (1 − A)). Brick walls: 0.5; open ground: 0.9 and more.
+  double total_seen(double albedo) const;
+
+  /// RMSE of A against exact walks along the same azimuths: what sampling costs, apart from few azimuths.
+  SamplingError sampling_error(int fineness, float peak_share);
+
+  /// RMSE of A against kManyAzimuths walked alike: what few azimuths cost, apart from sampling.
+  double azimuth_error(const WalkOptions& options);
+
+  /// Where every other azimuth will do: the blocks below a surface_share, as SkyTask has it; the share of the
+  /// others, which walk all; and the RMSE of A against kManyAzimuths that this leaves, no more than `error`
+  /// where all azimuths everywhere leave no more. `options.azimuths` is a multiple of 4.
+  struct Sparse {
+    double full_from;
+    double full_share;
+    double error;
+  };
+  Sparse find_sparse(const WalkOptions& options, double error);
+
+  /// RMSE of (1 − A) × the mean of `x` seen, against exact walks, where only what is seen is in error.
+  /// `light` is filled with x.
+  double link_error(const WalkOptions& options, const LightMips& light, const TexelVector& x);
+
+  /// Errors of a gather of `x`, made with the sky's shares given, at the receivers that are walked exactly,
+  /// where only what is seen is in error.
+  std::vector<double> gather_errors(const TexelVector& x, const TexelVector& gathered,
+                                    const TexelVector& sky) const;
+
+  /// Where blocks may have such errors: below a surface_share, infinite where all may; and the RMSE over all
+  /// receivers that this leaves, no more than `error`, were the others right.
+  struct Harmless {
+    double below;
+    double left;
+  };
+  Harmless find_harmless(const std::vector<double>& errors, const TexelVector& sky, double error) const;
+
+  const Surface& surface() const { return surface_; }
+
+  static constexpr int kExactAzimuths = 48;
+  static constexpr int kManyAzimuths = 160;
+
+ private:
+  struct ExactReceiver {
+    std::size_t frame;  ///< index of its strip
+    int row;            ///< in the strip
+    int column;
+    SliceView view;
+    double even_sky;  ///< A by every other azimuth
+  };
+
+  /// What every other azimuth tells.
+  struct EvenWalk {
+    std::vector<float> sky;      ///< A of all receivers of the pilot
+    std::vector<double> shares;  ///< surface_share of the blocks of each strip's tile
+  };
+
+  /// A of all receivers of the pilot, strip by strip; −1 where there is none.
+  std::vector<float> walk_sky_of(const WalkOptions& options, EvenWalk* even = nullptr);
+
+  /// A by kManyAzimuths walked as the options have it, but for their number.
+  const std::vector<float>& many_like(const WalkOptions& options);
+
+  const Surface& surface_;
+  const Watch& watch_;
+  HeightMips mips_;
+  std::vector<TileFrame> frames_;  ///< the strips
+  std::vector<ExactReceiver> exact_;
+  WalkOptions many_options_;
+  std::vector<float> many_;  ///< A by kManyAzimuths, made when first asked for
+};
+
+}  // namespace heightlight

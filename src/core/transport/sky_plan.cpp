@@ -1,0 +1,157 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "transport/horizon_plan.h"
+
+namespace heightlight {
+namespace {
+
+/// Share of the error aimed at that sampling may take.
+constexpr double kSamplingShare = 0.9;
+
+/// Where the total alone is wanted: the share of its error that the sky may take. Links cost more.
+constexpr double kSkyShare = 0.43;
+
+/// Sparse azimuths must cost less than this share of the fewest that are the same everywhere.
+constexpr double kWorthSparse = 0.85;
+
+/// Azimuths from which an error follows by K^(−3/2), as it does for horizons with jumps.
+constexpr int kTriedAzimuths = 16;
+constexpr double kAzimuthOrder = 1.5;
+constexpr int kFewestAzimuths = 4;
+
+/// Shares of the peaks tried: from 0 to this.
+constexpr float kPeakShareStep = 0.15F;
+constexpr float kHighestPeakShare = 0.75F;
+
+double azimuth_cost(int fineness) { return 5.0 + fineness; }
+
+/// The fewest azimuths that should leave no more than the error, of a walk whose sampling errs so: the rest,
+/// `tried` at kTriedAzimuths, falls by kAzimuthOrder. More than kManyAzimuths: none of those looked at.
+int fewest_azimuths(const SamplingError& sampling, double tried, double error) {
+  int azimuths = kFewestAzimuths;
+  const auto leaves = [&] {
+    const double few = tried * std::pow(double{kTriedAzimuths} / azimuths, kAzimuthOrder);
+    return std::hypot(sampling.at(azimuths), few);
+  };
+  while (azimuths <= HorizonPilot::kManyAzimuths && leaves() > error) azimuths += 2;
+  return azimuths;
+}
+
+/// The walk that should reach the error at the least cost, as far as its sampling goes. Where no sampling is
+/// good enough, the best.
+WalkOptions choose_sampling(HorizonPilot& pilot, double error, int azimuths, SamplingError& reached) {
+  constexpr int kMany = HorizonPilot::kManyAzimuths;
+  const double tried = pilot.azimuth_error({kTriedAzimuths, 8, 0.3F});
+  WalkOptions best;
+  double least = std::numeric_limits<double>::infinity();
+  double least_sampling = least;
+  float share = 0;  // the best so far: finer walks want the same, or more
+  for (const int fineness : {8, 12, 16, 20, 24, 32, 48, 64, 96, 128}) {
+    // A finer walk that had no sampling error at all would not pay any more.
+    const int at_least = azimuths > 0 ? azimuths : fewest_azimuths({}, tried, error);
+    if (at_least * azimuth_cost(fineness) >= least) break;
+    SamplingError sampling = pilot.sampling_error(fineness, share);
+    while (share < kHighestPeakShare) {
+      const float more = share + kPeakShareStep;
+      const SamplingError found = pilot.sampling_error(fineness, more);
+      if (found.at(kMany) >= sampling.at(kMany)) break;
+      sampling = found;
+      share = more;
+    }
+    // What is each azimuth's own is in what was tried, too.
+    const double own = sampling.own * sampling.own * (1.0 / kTriedAzimuths - 1.0 / kMany);
+    const double quadrature = std::sqrt(std::max(tried * tried - own, 0.5 * tried * tried));
+    const int wanted = azimuths > 0 ? azimuths : fewest_azimuths(sampling, quadrature, error);
+    const bool good = (azimuths > 0 || wanted <= kMany) && sampling.at(wanted) <= kSamplingShare * error;
+    const double cost = wanted * azimuth_cost(fineness);
+    if (std::isfinite(least) && (!good || cost >= least)) break;
+    if (!good && sampling.at(kMany) >= least_sampling) continue;
+    if (good) least = cost;
+    least_sampling = sampling.at(kMany);
+    reached = sampling;
+    best = {2, fineness, share};
+  }
+  return best;
+}
+
+/// The fewest azimuths that leave no more than the error, in steps of a tenth from the number that a few
+/// tell, upwards or downwards.
+WalkOptions choose_azimuths(HorizonPilot& pilot, WalkOptions options, double error, double& reached) {
+  options.azimuths = kTriedAzimuths;
+  const double tried = pilot.azimuth_error(options);
+  const double guess = kTriedAzimuths * std::pow(tried / error, 1 / kAzimuthOrder);
+  options.azimuths =
+      std::clamp(static_cast<int>(guess) / 2 * 2, kFewestAzimuths, HorizonPilot::kManyAzimuths);
+  reached = pilot.azimuth_error(options);
+  const auto step = [](int azimuths) { return std::max(2, azimuths / 20 * 2); };
+  while (reached > error && options.azimuths < HorizonPilot::kManyAzimuths) {
+    options.azimuths += step(options.azimuths);
+    reached = pilot.azimuth_error(options);
+    if (reached <= error) return options;
+  }
+  while (reached <= error && options.azimuths > kFewestAzimuths) {
+    WalkOptions fewer = options;
+    fewer.azimuths -= step(options.azimuths);
+    const double found = pilot.azimuth_error(fewer);
+    if (found > error) break;
+    options = fewer;
+    reached = found;
+  }
+  return options;
+}
+
+/// Somewhat more azimuths, of which open ground walks every other one, where that saves much: of what lies on
+/// which side of the least share, the pilot's few strips tell little.
+void choose_sparse(HorizonPilot& pilot, double error, SkyPlan& plan, double& reached) {
+  double least = kWorthSparse * plan.walk.azimuths;
+  const WalkOptions uniform = plan.walk;
+  for (const double more : {1.0, 1.1, 1.2, 1.35}) {
+    WalkOptions options = uniform;
+    options.azimuths = static_cast<int>(std::ceil(more * uniform.azimuths / 4)) * 4;
+    if (options.azimuths > HorizonPilot::kManyAzimuths) break;
+    const HorizonPilot::Sparse sparse = pilot.find_sparse(options, error);
+    const double cost = options.azimuths * (1 + sparse.full_share) / 2;
+    if (sparse.error > error || cost >= least) continue;
+    least = cost;
+    reached = sparse.error;
+    plan.walk = options;
+    plan.full_from = sparse.full_from;
+    plan.full_share = sparse.full_share;
+  }
+}
+
+}  // namespace
+
+double sky_cost(const SkyPlan& plan) {
+  return plan.walk.azimuths * azimuth_cost(plan.walk.fineness) * (1 + plan.full_share) / 2;
+}
+
+SkyPlan plan_sky(HorizonPilot& pilot, const HorizonGoal& goal) {
+  SkyPlan plan;
+  if (goal.azimuths > 0) plan.walk.azimuths = goal.azimuths;
+  if (pilot.empty()) return plan;
+  // A receiver that sees less of the sky sees more of the surface: its total changes by 1 − ρ × (the mean of
+  // the total seen) of what A does. The total needs no better sky than A itself would.
+  const double error =
+      kPlanAim * goal.error * goal.sky_share *
+      (goal.total_only ? std::max(1.0, kSkyShare / (1 - kPlanAlbedo * pilot.total_seen(kPlanAlbedo))) : 1);
+  SamplingError sampling;
+  double few = 0;
+  plan.walk = choose_sampling(pilot, error, goal.azimuths, sampling);
+  const double sampled = sampling.at(HorizonPilot::kManyAzimuths);  // fewer are told by azimuth_error
+  if (goal.azimuths > 0) {
+    plan.walk.azimuths = goal.azimuths;
+    few = pilot.azimuth_error(plan.walk);
+  } else {
+    const double rest = std::sqrt(std::max(error * error - sampled * sampled, 0.25 * error * error));
+    plan.walk = choose_azimuths(pilot, plan.walk, rest, few);
+    // Bent normals, of finer goals, lose more by it than A does.
+    if (goal.sky_share == 1) choose_sparse(pilot, rest, plan, few);
+  }
+  plan.error = std::hypot(sampled, few);
+  return plan;
+}
+
+}  // namespace heightlight

@@ -1,0 +1,126 @@
+#include "visibility/exact_sky.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/gauss_legendre.h"
+#include "base/texel_algebra.h"
+#include "visibility/slice_integrals.h"
+
+namespace heightlight {
+namespace {
+
+/// Adds ∫ over a slice, given its mass, its solid angle, and its moments along d and z.
+void add_slice(const Eigen::Vector2d& azimuth, double mass, double angle, const Eigen::Vector2d& first,
+               const Eigen::Vector2d& second, ExactSky& open) {
+  const double x = azimuth.x();
+  const double y = azimuth.y();
+  open.sky_view_factor += mass;
+  open.ambient_occlusion += angle;
+  open.first += Eigen::Vector3d(first.x() * x, first.x() * y, first.y());
+  open.second[0] += second.x() * (x * x - y * y);
+  open.second[1] += second.x() * x * y;
+  open.second[2] += mass - second.x();
+  open.second[3] += second.y() * x;
+  open.second[4] += second.y() * y;
+}
+
+/// A straight part of the profile, seen from slope to slope. Angles are integrated by Gauss's rule in pieces
+/// of a tenth, or, where the part crosses the sphere of the reach, of a thousandth; the line's distance under
+/// each angle follows from the two ends.
+void add_stretch(const SliceNormal& normal, const Eigen::Vector2d& azimuth, double from_slope,
+                 const VisibleStretch& stretch, const Reach& reach, ExactSky& open) {
+  static const std::vector<QuadratureNode> kNodes = gauss_legendre(4);
+  const double from = std::atan(from_slope);
+  const double to = std::atan(stretch.slope);
+  const double rise = stretch.slope * stretch.end_way - from_slope * stretch.begin_way;
+  const double run = stretch.end_way - stretch.begin_way;
+  const bool is_nearer = stretch.begin_way / std::cos(from) < reach.distance;
+  const bool crosses = is_nearer != (stretch.end_way / std::cos(to) < reach.distance);
+  const int pieces = std::max(1, static_cast<int>(std::ceil((to - from) / (crosses ? 1e-3 : 0.1))));
+  for (int piece = 0; piece < pieces; ++piece) {
+    for (const QuadratureNode& node : kNodes) {
+      const double elevation = from + (piece + node.at) / pieces * (to - from);
+      const double slope = std::tan(elevation);
+      // (begin + t run) slope = begin from_slope + t rise
+      const double denominator = slope * run - rise;
+      const double t = denominator != 0 ? stretch.begin_way * (from_slope - slope) / denominator : 0.5;
+      const double way = stretch.begin_way + std::clamp(t, 0.0, 1.0) * run;
+      const double cosine = std::cos(elevation);
+      const double sine = std::sin(elevation);
+      const double share = open_share(reach, way / cosine) * node.weight * (to - from) / pieces;
+      const double mass = share * (normal.along * cosine + normal.up * sine) * cosine;
+      add_slice(azimuth, mass, share * cosine, mass * Eigen::Vector2d(cosine, sine),
+                mass * Eigen::Vector2d(cosine * cosine, cosine * sine), open);
+    }
+  }
+}
+
+/// The receiver's own facet, where it rises above the tangent plane: it is seen at its middle, which no edge
+/// of a cell goes through.
+bool is_own_facet(const VisibleStretch& stretch) {
+  const float across = stretch.begin.across;
+  const float down = stretch.begin.down;
+  return stretch.begin_way == stretch.end_way && across != down && std::min(across, down) > 0 &&
+         std::max(across, down) < 1;
+}
+
+}  // namespace
+
+double open_share(const Reach& reach, double distance) {
+  const double share = distance / reach.distance;
+  if (share >= 1) return 1;
+  switch (reach.falloff) {
+    case Falloff::none:
+      return 0;
+    case Falloff::linear:
+      return share;
+    case Falloff::root:
+      return std::sqrt(share);
+  }
+  return 0;
+}
+
+ExactSky find_exact_sky(const ExactWalker& walker, int row, int column, const std::optional<Reach>& reach) {
+  const Surface& surface = walker.surface();
+  ExactSky sky;
+  if (std::isnan(surface.map.height(row, column))) {
+    constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+    sky.ambient_occlusion = sky.sky_view_factor = kMissing;
+    sky.first.setConstant(kMissing);
+    sky.second.fill(kMissing);
+    return sky;
+  }
+  sky.ambient_occlusion = sky.sky_view_factor = 0;
+  const Eigen::Vector3d normal = as_eigen(surface.normal(row, column)).cast<double>().normalized();
+  double mass = 0;
+  double angle = 0;
+  std::vector<VisibleStretch> stretches;
+  for (int k = 0; k < walker.azimuths(); ++k) {
+    const Eigen::Vector2d azimuth(std::cos(walker.azimuth_rad(k)), std::sin(walker.azimuth_rad(k)));
+    const SliceNormal in_slice{normal.head<2>().dot(azimuth), normal.z()};
+    const double tangent = tangent_slope(in_slice);
+    stretches.clear();
+    const double horizon = walker.walk(row, column, azimuth, tangent, stretches);
+    const Elevation lowest = elevation_of_slope(tangent);
+    const Elevation above = elevation_of_slope(std::max(tangent, horizon));
+    mass += cosine_mass(in_slice, lowest, {});
+    angle += solid_angle_above(lowest);
+    add_slice(azimuth, cosine_mass(in_slice, above, {}), solid_angle_above(above),
+              bent_mass_above(in_slice, above), second_mass_above(in_slice, above), sky);
+    if (!reach) continue;
+    double from = tangent;
+    for (const VisibleStretch& stretch : stretches) {
+      if (!is_own_facet(stretch)) add_stretch(in_slice, azimuth, from, stretch, *reach, sky);
+      from = stretch.slope;
+    }
+  }
+  sky.ambient_occlusion /= angle;
+  sky.sky_view_factor /= mass;
+  sky.first /= mass;
+  for (double& value : sky.second) value /= mass;
+  return sky;
+}
+
+}  // namespace heightlight

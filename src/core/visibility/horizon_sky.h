@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "heightlight/image.h"
+#include "heightlight/visibility.h"
+#include "heightlight/watch.h"
+#include "visibility/height_mips.h"
+#include "visibility/sky_walk.h"
+
+namespace heightlight {
+
+/// The sky's share of every receiver, by horizon walks; NaN where the sample is missing.
+struct HorizonSky {
+  Map ambient_occlusion;  ///< α, [0, 1]
+  Map sky_view_factor;    ///< A, [0, 1]
+  SkyMoments moments;     ///< those that were wanted
+};
+
+/// How much more than the shares is found, and how far occluders count.
+struct SkyTask {
+  SkyWanted wanted = {};
+  std::optional<Reach> reach = {};  ///< everywhere, where absent
+};
+
+/// By the sums so far: the RMS of 1 − A over the receivers of a tile's block that are present.
+double surface_share(const WalkTile& tile, const SkySums& sums, std::size_t block);
+
+HorizonSky walk_horizon_sky(const Surface& surface, const HeightMips& mips, const SkyPlan& plan,
+                            const SkyTask& task = {}, const Watch& watch = {});
+
+/// Bytes per texel of what it returns.
+std::uint64_t horizon_sky_bytes(const SkyWanted& wanted);
+
+/// Elevation of the horizon, rad, toward each azimuth (rad, counterclockwise from x), at least that of the
+/// tangent plane: [azimuth]. NaN where the sample is missing. A reach is taken to be sharp. Azimuths of
+/// `options` are not used.
+std::vector<Map> walk_horizons(const Surface& surface, const HeightMips& mips, const WalkOptions& options,
+                               const std::vector<double>& azimuths, const std::optional<Reach>& reach,
+                               const Watch& watch = {});
+
+}  // namespace heightlight

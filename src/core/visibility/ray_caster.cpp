@@ -1,0 +1,158 @@
+#include "visibility/ray_caster.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "base/texel_algebra.h"
+#include "heightlight/error.h"
+#include "visibility/slope_bounds.h"
+
+namespace heightlight {
+namespace {
+
+constexpr int kMostRays = 65536;
+constexpr float kSteepest = 1e30F;  // finite, so that 0 · slope stays 0
+
+HemisphereDirections make_directions(const RayOptions& options) {
+  check_ray_options(options);
+  return make_hemisphere_directions(options.rays, options.seed);
+}
+
+std::size_t padded(int rays) { return static_cast<std::size_t>(rays + kRayPadding); }
+
+/// Two unit vectors that complete `n` (z ≥ 0) to a right-handed frame; no branch near the pole (Duff et al.
+/// 2017).
+struct Frame {
+  Eigen::Vector3f tangent, bitangent, normal;
+
+  explicit Frame(const Eigen::Vector3f& n) : normal(n) {
+    const float a = -1.0F / (1.0F + n.z());
+    const float b = n.x() * n.y() * a;
+    tangent = {1.0F + n.x() * n.x() * a, b, -n.x()};
+    bitangent = {b, 1.0F + n.y() * n.y() * a, -n.y()};
+  }
+};
+
+/// From where on each ray has nothing in its way: by the bounds of its quadrant, or because it is above the
+/// map's highest point, `above` the receiver.
+void find_sky_ways(const SlopeBounds& bounds, float above, int count, RayWorkspace& workspace) {
+  const float* step_u = workspace.step_u.data();
+  const float* step_v = workspace.step_v.data();
+  const float* slope = workspace.slope.data();
+  float* sky_way = workspace.sky_way.data();
+  for (int k = 0; k < count; ++k) {
+    sky_way[k] = slope[k] > 0 ? above / slope[k] : std::numeric_limits<float>::infinity();
+  }
+  for (auto level = static_cast<std::size_t>(bounds.levels); level-- > 0;) {
+    const float way = bounds.way[level];
+    const std::array<float, 4> bound{bounds.slope[0][level], bounds.slope[1][level], bounds.slope[2][level],
+                                     bounds.slope[3][level]};
+    for (int k = 0; k < count; ++k) {  // selections only, so that the compiler makes vectors of it
+      const float falling_rows = step_u[k] > 0 ? bound[1] : bound[0];
+      const float rising_rows = step_u[k] > 0 ? bound[3] : bound[2];
+      const float steepest = step_v[k] > 0 ? rising_rows : falling_rows;
+      const float nearer = way < sky_way[k] ? way : sky_way[k];
+      sky_way[k] = slope[k] >= steepest ? nearer : sky_way[k];
+    }
+  }
+}
+
+}  // namespace
+
+void check_ray_options(const RayOptions& options) {
+  if (options.rays >= 1 && options.rays <= kMostRays) return;
+  throw UsageError("rays", std::to_string(options.rays), "must be from 1 to " + std::to_string(kMostRays));
+}
+
+RayWorkspace::RayWorkspace(int rays)
+    : step_u(padded(rays)),
+      step_v(padded(rays)),
+      slope(padded(rays)),
+      sky_way(padded(rays)),
+      cell(padded(rays)),
+      across(padded(rays)),
+      down(padded(rays)) {}
+
+RayCaster::RayCaster(const Surface& surface, const RayOptions& options)
+    : surface_(surface), directions_(make_directions(options)) {
+  if (surface.cell_columns() > 0 && surface.cell_rows() > 0) pyramid_ = build_maximum_pyramid(surface);
+  grid_ = make_ray_grid(surface, pyramid_);
+}
+
+RayBundle RayCaster::aim_directions(int row, int column, const LatticeTurn& turn,
+                                    RayWorkspace& workspace) const {
+  const Frame frame(as_eigen(surface_.normal(row, column)));
+  const auto table = static_cast<std::size_t>(turn.table);
+  const float* cosine = directions_.cosine[table].data();
+  const float* sine = directions_.sine[table].data();
+  const float* azimuth_cosine = directions_.azimuth_cosine.data();
+  const float* azimuth_sine = directions_.azimuth_sine.data();
+  const float per_x = static_cast<float>(1 / surface_.map.spacing.x);
+  const float per_y = static_cast<float>(-1 / surface_.map.spacing.y);  // rows run down, y up
+  for (int k = 0; k < directions_.count; ++k) {
+    const float along_tangent = sine[k] * (azimuth_cosine[k] * turn.cosine - azimuth_sine[k] * turn.sine);
+    const float along_bitangent = sine[k] * (azimuth_sine[k] * turn.cosine + azimuth_cosine[k] * turn.sine);
+    const float x = along_tangent * frame.tangent.x() + along_bitangent * frame.bitangent.x() +
+                    cosine[k] * frame.normal.x();
+    const float y = along_tangent * frame.tangent.y() + along_bitangent * frame.bitangent.y() +
+                    cosine[k] * frame.normal.y();
+    const float z = along_tangent * frame.tangent.z() + along_bitangent * frame.bitangent.z() +
+                    cosine[k] * frame.normal.z();
+    const float u = x * per_x;
+    const float v = y * per_y;
+    const float texels = std::sqrt(u * u + v * v);
+    const float per_texel = 1.0F / std::max(texels, 1e-30F);
+    workspace.step_u[static_cast<std::size_t>(k)] = u * per_texel;
+    workspace.step_v[static_cast<std::size_t>(k)] = v * per_texel;
+    workspace.slope[static_cast<std::size_t>(k)] = std::clamp(z * per_texel, -kSteepest, kSteepest);
+  }
+  RayBundle bundle;
+  bundle.column = column;
+  bundle.row = row;
+  bundle.height = surface_.map.height(row, column);
+  bundle.count = directions_.count;
+  bundle.step_u = workspace.step_u.data();
+  bundle.step_v = workspace.step_v.data();
+  bundle.slope = workspace.slope.data();
+  return bundle;
+}
+
+RayBundle RayCaster::aim(int row, int column, const LatticeTurn& turn, RayWorkspace& workspace) const {
+  RayBundle bundle = aim_directions(row, column, turn, workspace);
+  const SlopeBounds bounds = bound_slopes(grid_, row, column, bundle.height);
+  find_sky_ways(bounds, grid_.highest - bundle.height, bundle.count, workspace);
+  bundle.sky_way = workspace.sky_way.data();
+  return bundle;
+}
+
+void RayCaster::view(int row, int column, RayWorkspace& workspace, ReceiverView& view) const {
+  view.rays = 0;
+  view.ray.clear();
+  view.place.clear();
+  if (std::isnan(surface_.map.height(row, column))) return;
+  const LatticeTurn turn = directions_.turn(row, column);
+  view.rays = directions_.count;
+  view.weight_table = static_cast<std::uint8_t>(turn.table);
+  view.weight = directions_.weight[static_cast<std::size_t>(turn.table)].data();
+  if (pyramid_.levels == 0) return;  // no cells, nothing in the way
+  const RayBundle bundle = aim(row, column, turn, workspace);
+  traverse(grid_, bundle, {workspace.cell.data(), workspace.across.data(), workspace.down.data()});
+  for (int k = 0; k < bundle.count; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    if (workspace.cell[i] == kSky) continue;
+    view.ray.push_back(static_cast<std::uint16_t>(k));
+    view.place.push_back(
+        {static_cast<std::uint32_t>(workspace.cell[i]), workspace.across[i], workspace.down[i]});
+  }
+}
+
+SkyShare sky_share(const ReceiverView& view) {
+  double seen = 0;
+  for (const std::uint16_t ray : view.ray) seen += view.weight[ray];
+  const double hits = static_cast<double>(view.ray.size());
+  return {1 - hits / view.rays, std::max(0.0, 1 - seen)};
+}
+
+}  // namespace heightlight

@@ -1,0 +1,235 @@
+#include "visibility/walk_tile.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "surface/blocks.h"
+
+namespace heightlight {
+namespace {
+
+ReceiverGroups span_groups(const WalkTile& tile, int side) {
+  ReceiverGroups groups;
+  groups.side = side;
+  groups.across = WalkTile::kSide / side;
+  for (int row = 0; row < WalkTile::kSide; row += side) {
+    for (int column = 0; column < WalkTile::kSide; column += side) {
+      float lowest = -kNoHeight;
+      float highest = kNoHeight;
+      for (int i = row; i < row + side; ++i) {
+        for (int j = column; j < column + side; ++j) {
+          const auto at = static_cast<std::size_t>(i * WalkTile::kSide + j);
+          if (!tile.present[at]) continue;
+          lowest = std::min(lowest, tile.height[at]);
+          highest = std::max(highest, tile.height[at]);
+        }
+      }
+      groups.lowest.push_back(lowest <= highest ? lowest : 0);
+      groups.highest.push_back(lowest <= highest ? highest : 0);
+    }
+  }
+  return groups;
+}
+
+/// Places a window so that it reaches `reach` blocks beyond the tile on all sides.
+void place(HeightWindow& window, int level, int reach, int row, int column) {
+  const int across = (WalkTile::kSide >> level) + 2 + 2 * reach;
+  window.level = level;
+  window.first_row = (row >> level) - reach;
+  window.first_column = (column >> level) - reach;
+  window.width = across;
+  window.height = across;
+  window.values.resize(static_cast<std::size_t>(across) * static_cast<std::size_t>(across) + kReadPadding);
+}
+
+/// Columns of the map that follow each other in a window, or columns where nothing is (map_column < 0).
+struct ColumnRun {
+  int map_column;
+  int count;
+};
+
+std::vector<ColumnRun> column_runs(const std::vector<int>& columns) {
+  std::vector<ColumnRun> runs;
+  for (const int column : columns) {
+    const bool goes_on =
+        !runs.empty() &&
+        (column < 0 ? runs.back().map_column < 0
+                    : runs.back().map_column >= 0 && column == runs.back().map_column + runs.back().count);
+    if (goes_on) {
+      ++runs.back().count;
+    } else {
+      runs.push_back({column, 1});
+    }
+  }
+  return runs;
+}
+
+void copy_heights(const float* heights, int count, float reference, float* out) {
+#pragma omp simd
+  for (int i = 0; i < count; ++i) {
+    const float height = heights[i] - reference;
+    out[i] = std::isnan(height) ? kNoHeight : height;
+  }
+}
+
+void fill_nearest(HeightWindow& window, const Image<float>& heights, bool tiles, float reference) {
+  const std::vector<int> rows = block_sources(window.first_row, window.height, 0, heights.height, tiles);
+  const std::vector<ColumnRun> runs =
+      column_runs(block_sources(window.first_column, window.width, 0, heights.width, tiles));
+  float* out = window.values.data();
+  for (const int row : rows) {
+    for (const ColumnRun& run : runs) {
+      if (row < 0 || run.map_column < 0) {
+        std::fill_n(out, run.count, kNoHeight);
+      } else {
+        copy_heights(&heights(row, run.map_column), run.count, reference, out);
+      }
+      out += run.count;
+    }
+  }
+}
+
+void fill_blocks(HeightWindow& window, const HeightMips& mips, const Surface& surface, float peak_share,
+                 float reference) {
+  if (mips.levels.empty()) {
+    std::fill(window.values.begin(), window.values.end(), surface.map.height.values[0] - reference);
+    return;
+  }
+  const int level = std::min(window.level, static_cast<int>(mips.levels.size()));
+  const HeightMips::Level& blocks = mips.levels[static_cast<std::size_t>(level) - 1];
+  const std::vector<int> rows =
+      block_sources(window.first_row, window.height, window.level, surface.height(), surface.tiles());
+  const std::vector<ColumnRun> runs = column_runs(
+      block_sources(window.first_column, window.width, window.level, surface.width(), surface.tiles()));
+  float* out = window.values.data();
+  for (const int row : rows) {
+    for (const ColumnRun& run : runs) {
+      if (row < 0 || run.map_column < 0) {
+        std::fill_n(out, run.count, kNoHeight);
+      } else {
+        const float* mean = &blocks.mean(row, run.map_column);
+        const float* highest = &blocks.highest(row, run.map_column);
+#pragma omp simd
+        for (int i = 0; i < run.count; ++i) {
+          const float height = mean[i] + peak_share * (highest[i] - mean[i]) - reference;
+          out[i] = mean[i] == kNoHeight ? kNoHeight : height;
+        }
+      }
+      out += run.count;
+    }
+  }
+}
+
+void lift(const HeightWindow& samples, HeightWindow& lifted) {
+  lifted = samples;
+  const int width = samples.width;
+  std::vector<float> highest(static_cast<std::size_t>(width));  // of three in a column
+  for (int row = 1; row + 1 < samples.height; ++row) {
+    const float* here = samples.values.data() + std::ptrdiff_t{row} * width;
+    float* out = lifted.values.data() + std::ptrdiff_t{row} * width;
+    for (int column = 0; column < width; ++column) {
+      highest[static_cast<std::size_t>(column)] =
+          std::max(here[column], std::max(here[column - width], here[column + width]));
+    }
+    const float* peaks = highest.data();
+    for (int column = 1; column + 1 < width; ++column) {
+      const float peak = std::max(peaks[column], std::max(peaks[column - 1], peaks[column + 1]));
+      out[column] = here[column] + WalkTile::kLift * (peak - here[column]);
+    }
+  }
+}
+
+}  // namespace
+
+TileFrame TileGrid::frame(std::int64_t i) const {
+  TileFrame frame;
+  frame.first_row = static_cast<int>(i / across) * TileFrame::kSide;
+  frame.first_column = static_cast<int>(i % across) * TileFrame::kSide;
+  frame.rows = std::min(TileFrame::kSide, height - frame.first_row);
+  frame.columns = std::min(TileFrame::kSide, width - frame.first_column);
+  return frame;
+}
+
+void WalkTile::load(const Surface& surface, const HeightMips& mips, const WalkOptions& options, int rings,
+                    const TileFrame& frame) {
+  static_cast<TileFrame&>(*this) = frame;
+  const int row = first_row;
+  const int column = first_column;
+  const Image<float>& map = surface.map.height;
+  float reference =
+      0;  // a height of the tile's own, so that what is level stays so and digits go to differences
+  for (int i = 0; i < rows * columns; ++i) {
+    const float value = map(row + i / columns, column + i % columns);
+    if (std::isnan(value)) continue;
+    reference = value;
+    break;
+  }
+  for (int i = 0; i < kSide; ++i) {
+    for (int j = 0; j < kSide; ++j) {
+      const auto at = static_cast<std::size_t>(i * kSide + j);
+      const bool inside = i < rows && j < columns;
+      present[at] = inside && !std::isnan(map(row + i, column + j));
+      height[at] = present[at] ? map(row + i, column + j) - reference : -kNoHeight;
+      const Vector3 normal = present[at] ? surface.normal(row + i, column + j) : Vector3{0, 0, 1};
+      const float falls = -1 / normal.z;
+      slope_x[at] = falls * normal.x;
+      slope_y[at] = falls * normal.y;
+      normal_z[at] = normal.z;
+    }
+  }
+  groups = span_groups(*this, kGroup);
+  wide_groups = span_groups(*this, kWideGroup);
+  windows.resize(static_cast<std::size_t>(rings) + 1);
+  place(windows[0], 0, near_reach(options), row, column);
+  fill_nearest(windows[0], mips.level_0(surface), surface.tiles(), reference);
+  lift(windows[0], lifted);
+  for (int ring = 1; ring <= rings; ++ring) {
+    HeightWindow& window = windows[static_cast<std::size_t>(ring)];
+    place(window, ring_level(ring), 4 * options.fineness + 1, row, column);
+    fill_blocks(window, mips, surface, options.peak_share, reference);
+  }
+}
+
+constexpr int kCoarse = 8;  // values a side that one bound is for
+
+RingBounds::RingBounds(const WalkTile& tile) : tile_(tile) {
+  for (std::size_t ring = 1; ring < tile.windows.size(); ++ring) {
+    const HeightWindow& window = tile.windows[ring];
+    const int wide = (window.width + kCoarse - 1) / kCoarse;
+    const int high = (window.height + kCoarse - 1) / kCoarse;
+    std::vector<float>& coarse =
+        coarse_.emplace_back(static_cast<std::size_t>(wide) * static_cast<std::size_t>(high), kNoHeight);
+    for (int row = 0; row < window.height; ++row) {
+      const float* values = window.values.data() + std::ptrdiff_t{row} * window.width;
+      float* bounds = coarse.data() + std::ptrdiff_t{row / kCoarse} * wide;
+      for (int column = 0; column < window.width; ++column) {
+        float& bound = bounds[column / kCoarse];
+        bound = std::max(bound, values[column]);
+      }
+    }
+  }
+}
+
+float RingBounds::highest(const AzimuthTable& azimuth, int ring) const {
+  const HeightWindow& window = tile_.windows[static_cast<std::size_t>(ring)];
+  const std::vector<float>& coarse = coarse_[static_cast<std::size_t>(ring) - 1];
+  const int wide = (window.width + kCoarse - 1) / kCoarse;
+  const auto block = [level = window.level](int first, int last, int offset, int origin) {
+    return std::pair{(((first + offset) >> level) - origin) / kCoarse,
+                     (((last + offset) >> level) - origin) / kCoarse};
+  };
+  float highest = kNoHeight;
+  for (const RingSample& sample : azimuth.rings[static_cast<std::size_t>(ring) - 1]) {
+    const auto [top, bottom] =
+        block(tile_.first_row, tile_.first_row + WalkTile::kSide - 1, sample.row, window.first_row);
+    const auto [left, right] = block(tile_.first_column, tile_.first_column + WalkTile::kSide - 1,
+                                     sample.column, window.first_column);
+    for (int i = top; i <= bottom; ++i) {
+      for (int j = left; j <= right; ++j)
+        highest = std::max(highest, coarse[static_cast<std::size_t>(i * wide + j)]);
+    }
+  }
+  return highest;
+}
+
+}  // namespace heightlight

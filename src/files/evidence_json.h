@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "heightlight/evidence.h"
+#include "heightlight/surface.h"
+
+// What every file that tells of a solution says, with the same keys wherever it stands: summary.json,
+// NAME_bake.json, compare.json, dataset.json.
+
+namespace heightlight {
+
+/// A file's map as it was understood: path, sha256, width, height, texel, relief, boundary, missing.
+nlohmann::ordered_json describe_map(const std::filesystem::path& path, const std::string& sha256,
+                                    const Surface& surface);
+
+/// The keys `visibility`, `links`, `energy` and `seen`, as far as the evidence has them.
+nlohmann::ordered_json describe_evidence(const Evidence& evidence);
+
+/// The solution's own part of `time_s`.
+nlohmann::ordered_json describe_times(const SolveTimes& seconds);
+
+/// `memory`: what this process held at most so far, and what the solution was estimated to hold.
+nlohmann::ordered_json describe_memory(const Evidence& evidence);
+
+/// The text of a file of JSON. Names of files may hold bytes that are no UTF-8, which JSON cannot: they are
+/// replaced.
+std::string json_text(const nlohmann::ordered_json& json);
+
+}  // namespace heightlight

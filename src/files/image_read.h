@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "files/file_format.h"
+
+namespace heightlight {
+
+/// Samples in the type in which the file stores them, save half, which becomes float without loss.
+using StoredSamples =
+    std::variant<std::vector<std::uint8_t>, std::vector<std::int8_t>, std::vector<std::uint16_t>,
+                 std::vector<std::int16_t>, std::vector<std::uint32_t>, std::vector<std::int32_t>,
+                 std::vector<float>, std::vector<double>>;
+
+/// An image as its file holds it: no colour conversion, no scaling, alpha not multiplied in.
+struct StoredImage {
+  int width = 0;
+  int height = 0;
+  std::string sample_type;  ///< "uint8", "uint16", "half", "float", …
+  int bits = 0;             ///< per sample, in the file
+  bool is_integer = false;
+  std::vector<std::string> channels;  ///< in the file's order; alpha is "A"
+  std::optional<double> no_data;      ///< declared by the file (GDAL's tag in TIFF)
+  StoredSamples samples;              ///< row-major, row 0 on top, channels interleaved
+};
+
+/// Reads the first image of a file, whose format is not esri_grid. The header's size is checked
+/// (check_map_size) before samples are read; `memory_limit` in bytes must hold the samples and what heights
+/// are made of. Throws Error naming the file when it is truncated or damaged, too large, deep or of an
+/// unknown sample type.
+StoredImage read_image(const std::filesystem::path& path, FileFormat format, std::uint64_t memory_limit);
+
+/// Part of read_image: PNG, through stb.
+StoredImage read_png(const std::filesystem::path& path, std::uint64_t memory_limit);
+
+/// Bytes for each texel while a heightmap is made: the file's samples beside one channel of them as double,
+/// and afterwards those doubles beside the heights as float.
+constexpr std::uint64_t bytes_per_texel(std::uint64_t stored_bytes) {
+  constexpr std::uint64_t kHeight = sizeof(float);
+  return sizeof(double) + (stored_bytes > kHeight ? stored_bytes : kHeight);
+}
+
+}  // namespace heightlight

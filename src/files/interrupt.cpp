@@ -1,0 +1,54 @@
+#include "files/interrupt.h"
+
+#include <semaphore.h>
+
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+#include "heightlight/error.h"
+
+namespace heightlight {
+namespace {
+
+constexpr std::chrono::milliseconds kPatience{700};
+
+std::atomic<int> noted_signal_number{0};
+static_assert(std::atomic<int>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
+sem_t signal_came;
+
+extern "C" void note_signal(int signal_number) {
+  const int error_number = errno;
+  noted_signal_number.store(signal_number);
+  sem_post(&signal_came);
+  errno = error_number;
+}
+
+void wait_for_late_end(void (*when_late)(int)) {
+  while (sem_wait(&signal_came) != 0) {
+  }
+  std::this_thread::sleep_for(kPatience);
+  when_late(noted_signal_number.load());
+}
+
+}  // namespace
+
+void note_interrupts(void (*when_late)(int signal_number)) {
+  static bool is_noting = false;
+  if (is_noting) return;
+  is_noting = true;
+  sem_init(&signal_came, 0, 0);
+  std::thread(wait_for_late_end, when_late).detach();
+  std::signal(SIGINT, note_signal);
+  std::signal(SIGTERM, note_signal);
+}
+
+int noted_signal() { return noted_signal_number.load(std::memory_order_relaxed); }
+
+void throw_if_interrupted() {
+  if (noted_signal() != 0) throw Cancelled();
+}
+
+}  // namespace heightlight

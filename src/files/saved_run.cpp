@@ -1,0 +1,117 @@
+#include "files/saved_run.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "files/image_read.h"
+#include "files/input_file.h"
+#include "files/map_size.h"
+#include "heightlight/transport.h"
+
+namespace heightlight {
+namespace {
+
+/// One float channel of `size` texels a side, or of any size where that is 0 × 0.
+Map read_map(const std::filesystem::path& path, int width, int height, std::uint64_t memory_limit) {
+  StoredImage image = read_image(path, recognise_format(path), memory_limit);
+  if (image.channels.size() != 1 || !std::holds_alternative<std::vector<float>>(image.samples)) {
+    throw file_error(path, "is not one channel of floats, as simulate writes it");
+  }
+  if (width > 0 && (image.width != width || image.height != height)) {
+    throw file_error(path, "is of " + std::to_string(image.width) + " × " + std::to_string(image.height) +
+                               " texels, the maps beside it of " + std::to_string(width) + " × " +
+                               std::to_string(height));
+  }
+  Map map;
+  map.width = image.width;
+  map.height = image.height;
+  map.values = std::move(std::get<std::vector<float>>(image.samples));
+  return map;
+}
+
+/// Bounces as they are added up, in double.
+struct Sums {
+  std::vector<double> all;                    ///< E₀ + … + E_b
+  std::vector<std::vector<double>> weighted;  ///< Σ ρ^b E_b, per albedo
+  std::vector<float> last;
+
+  Sums(std::size_t texels, std::size_t albedos)
+      : all(texels), weighted(albedos, std::vector<double>(texels)) {}
+
+  void add(const Map& irradiance, int bounce, const std::vector<double>& albedos) {
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] += double{irradiance.values[i]};
+    for (std::size_t k = 0; k < albedos.size(); ++k) {
+      const double power = std::pow(albedos[k], bounce);
+      for (std::size_t i = 0; i < all.size(); ++i) weighted[k][i] += power * double{irradiance.values[i]};
+    }
+    last = irradiance.values;
+  }
+};
+
+}  // namespace
+
+std::string bounce_file(int bounce) { return fmt::format("irradiance_{:02}.exr", bounce); }
+
+std::optional<RunSummary> read_run_summary(const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder / "summary.json";
+  if (!std::filesystem::exists(path)) return std::nullopt;
+  std::ifstream file(path);
+  try {
+    const nlohmann::json summary = nlohmann::json::parse(file);
+    const nlohmann::json& map = summary.at("map");
+    if (!summary.contains("seen")) {
+      throw file_error(path, "does not say what texels see ('seen'): simulate the map again");
+    }
+    RunSummary run;
+    run.map = std::filesystem::path(map.at("path").get<std::string>()).stem().string();
+    run.sha256 = map.at("sha256").get<std::string>();
+    run.tiles = map.at("boundary").get<std::string>() == "tile";
+    run.relief = map.at("relief").get<double>();
+    run.texel_x = map.at("texel").at(0).get<double>();
+    run.width = run.texel_x * map.at("width").get<double>();
+    run.expected_seen = summary.at("seen").at("expected_sky_view_factor").get<double>();
+    run.measured_seen = summary.at("seen").at("mean_sky_view_factor").get<double>();
+    return run;
+  } catch (const nlohmann::json::exception& fault) {
+    throw file_error(path, std::string("is not a summary of simulate: ") + fault.what());
+  }
+}
+
+bool has_saved_texels(const std::filesystem::path& folder) {
+  return std::filesystem::exists(folder / bounce_file(0)) && std::filesystem::exists(folder / bounce_file(1));
+}
+
+SavedTexels read_saved_texels(const std::filesystem::path& folder, const std::vector<double>& albedos,
+                              std::uint64_t memory_limit) {
+  SavedTexels saved;
+  saved.ambient_occlusion = read_map(folder / "ambient_occlusion.exr", 0, 0, memory_limit);
+  const int width = saved.ambient_occlusion.width;
+  const int height = saved.ambient_occlusion.height;
+  // The three maps, bounces as read and as kept, and the sums; totals replace those.
+  const std::uint64_t bytes_per_texel = 6 * sizeof(float) + (albedos.size() + 1) * sizeof(double);
+  check_map_size(folder / "ambient_occlusion.exr", static_cast<std::uint64_t>(width),
+                 static_cast<std::uint64_t>(height), bytes_per_texel, memory_limit);
+  saved.sky_view_factor = read_map(folder / "sky_view_factor.exr", width, height, memory_limit);
+  Sums sums(saved.sky_view_factor.size(), albedos.size());
+  int bounces = 0;
+  for (; std::filesystem::exists(folder / bounce_file(bounces)); ++bounces) {
+    const Map irradiance = read_map(folder / bounce_file(bounces), width, height, memory_limit);
+    sums.add(irradiance, bounces, albedos);
+    if (bounces == 1) saved.first_bounce = irradiance;
+  }
+  for (std::size_t k = 0; k < albedos.size(); ++k) {
+    Map total(width, height);
+    for (std::size_t i = 0; i < total.size(); ++i) {
+      total.values[i] = static_cast<float>(
+          sums.weighted[k][i] + conserve_tail(sums.all[i], double{sums.last[i]}, bounces - 1, albedos[k]));
+    }
+    saved.totals.push_back(std::move(total));
+  }
+  return saved;
+}
+
+}  // namespace heightlight

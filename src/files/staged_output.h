@@ -1,0 +1,75 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "files/staging_folder.h"
+
+namespace heightlight {
+
+/// A folder of results that appears whole or not at all. Files are written into a hidden staging folder on
+/// the same file system and synced. Where the folder is new, `commit` gives it its name: it is there with all
+/// its files, or not at all. Where it exists, `commit` renames file after file into it, in the order in which
+/// they were asked for, and the last to come says that all are there. Without `commit`, the destructor
+/// removes every trace, parent folders that this object created included.
+class StagedFolder {
+ public:
+  /// Creates the parents of `folder` where absent. Throws UsageError naming an input that one of `results`,
+  /// names of files in the folder, would replace, whatever it is called there and here (the same file by
+  /// device and inode); Error naming the folder when it can't be created or written to, or exists and is no
+  /// folder.
+  StagedFolder(std::filesystem::path folder, std::vector<std::filesystem::path> inputs,
+               const std::vector<std::string>& results);
+  ~StagedFolder();
+  StagedFolder(const StagedFolder&) = delete;
+  StagedFolder& operator=(const StagedFolder&) = delete;
+
+  /// Where to write the file that will be called `name` in the folder. Names have no folder part. Throws
+  /// Error when something other than a regular file has that name already, UsageError when an input has it.
+  std::filesystem::path file(const std::string& name);
+
+  /// Where that file will stand: for messages.
+  std::filesystem::path final_path(const std::string& name) const { return folder_ / name; }
+
+  /// Puts every staged file in its place. Throws Error naming the file that could not be.
+  void commit();
+
+ private:
+  void put_in_place();
+
+  std::filesystem::path folder_;
+  std::vector<std::filesystem::path> inputs_;
+  std::filesystem::path first_created_;  ///< topmost parent that did not exist before; empty if all did
+  bool is_new_ = false;                  ///< the staging folder is to become the folder
+  std::unique_ptr<StagingFolder> staging_;
+  std::vector<std::string> names_;
+  bool committed_ = false;
+};
+
+/// Throws UsageError naming the input that a result at `destination` would replace.
+void check_inputs_stay(const std::vector<std::filesystem::path>& inputs,
+                       const std::filesystem::path& destination);
+
+/// One result file, likewise: write to `path()`, then `commit()`.
+class StagedFile {
+ public:
+  /// Throws Error when the folder of `destination` is absent or can't be written to, or `destination` exists
+  /// and is not a regular file; UsageError when it is one of the inputs.
+  explicit StagedFile(std::filesystem::path destination,
+                      const std::vector<std::filesystem::path>& inputs = {});
+
+  /// Where to write it; it keeps the destination's name, whose extension chooses the format.
+  const std::filesystem::path& path() const { return staged_; }
+
+  /// Puts the file in its place. Throws Error naming it when that can't be done.
+  void commit();
+
+ private:
+  std::filesystem::path destination_;
+  std::unique_ptr<StagingFolder> staging_;  ///< beside the destination
+  std::filesystem::path staged_;            ///< alone in it
+};
+
+}  // namespace heightlight

@@ -1,0 +1,140 @@
+#include "files/staging_folder.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <map>
+#include <string>
+#include <system_error>
+
+#include "files/output_file.h"
+
+namespace heightlight {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kPrefix = ".heightlight-";
+
+/// Those of this process. Never destroyed: the end of the process needs them.
+struct Staged {
+  std::recursive_mutex mutex;            ///< recursive: errors found while it is held ask for final paths
+  std::map<fs::path, fs::path> folders;  ///< and where what they hold is to stand
+};
+
+void remove_all_staged(const Staged& staged) {
+  std::error_code ignored;
+  for (const auto& [folder, destination] : staged.folders) fs::remove_all(folder, ignored);
+}
+
+Staged& staged_here() {
+  static Staged* const kStaged = [] {
+    std::atexit([] {
+      const std::lock_guard lock(staged_here().mutex);
+      remove_all_staged(staged_here());
+    });
+    return new Staged;
+  }();
+  return *kStaged;
+}
+
+bool is_staging_name(const std::string& name) {
+  if (!name.starts_with(kPrefix)) return false;
+  const std::string numbers = name.substr(std::string(kPrefix).size());
+  return std::count(numbers.begin(), numbers.end(), '-') == 1 &&
+         numbers.find_first_not_of("0123456789-") == std::string::npos;
+}
+
+int open_folder(const fs::path& folder) {
+  return open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+}
+
+/// Where locks are unknown, as on some network file systems, nothing is taken for left behind.
+void remove_left_behind(const fs::path& parent) {
+  std::error_code ignored;
+  for (fs::directory_iterator entry(parent, ignored), end; entry != end; entry.increment(ignored)) {
+    if (!is_staging_name(entry->path().filename().string())) continue;
+    const int descriptor = open_folder(entry->path());
+    if (descriptor < 0) continue;
+    if (flock(descriptor, LOCK_EX | LOCK_NB) == 0) fs::remove_all(entry->path(), ignored);
+    close(descriptor);
+  }
+}
+
+/// Takes the lock of a folder just made; false where another process removed it in between.
+bool lock_new_folder(int descriptor, const fs::path& folder) {
+  if (flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return false;
+  struct stat opened {};
+  struct stat named {};
+  return fstat(descriptor, &opened) == 0 && stat(folder.c_str(), &named) == 0 &&
+         opened.st_ino == named.st_ino && opened.st_dev == named.st_dev;
+}
+
+}  // namespace
+
+StagingFolder::StagingFolder(const fs::path& parent, const fs::path& folder, const fs::path& result) {
+  remove_left_behind(parent);
+  Staged& staged = staged_here();
+  const std::string stem = kPrefix + std::to_string(getpid()) + "-";
+  constexpr int kMostTries = 10000;
+  int fault = EEXIST;
+  for (int i = 0; i < kMostTries; ++i) {
+    const fs::path candidate = parent / (stem + std::to_string(i));
+    const std::lock_guard lock(staged.mutex);
+    if (mkdir(candidate.c_str(), 0777) != 0) {
+      fault = errno;
+      if (fault == EEXIST) continue;
+      break;
+    }
+    descriptor_ = open_folder(candidate);
+    if (descriptor_ >= 0 && lock_new_folder(descriptor_, candidate)) {
+      path_ = candidate;
+      staged.folders.emplace(path_, folder);
+      return;
+    }
+    if (descriptor_ >= 0) close(descriptor_);
+    descriptor_ = -1;
+  }
+  throw output_error(result, fault);
+}
+
+StagingFolder::~StagingFolder() {
+  if (path_.empty()) return;
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+  const std::lock_guard lock(staged_here().mutex);
+  forget();
+}
+
+void StagingFolder::forget() {
+  staged_here().folders.erase(path_);
+  path_.clear();
+  close(descriptor_);
+}
+
+bool StagingFolder::become(const fs::path& destination) {
+  if (rename(path_.c_str(), destination.c_str()) != 0) return false;
+  forget();
+  return true;
+}
+
+fs::path final_path(const fs::path& path) {
+  const std::lock_guard lock(staged_here().mutex);
+  const auto found = staged_here().folders.find(path.parent_path());
+  return found == staged_here().folders.end() ? path : found->second / path.filename();
+}
+
+std::unique_lock<std::recursive_mutex> hold_off_end() { return std::unique_lock(staged_here().mutex); }
+
+void end_without_staging(int exit_code) {
+  staged_here().mutex.lock();  // and never unlocked: nothing is put in place any more
+  remove_all_staged(staged_here());
+  _exit(exit_code);
+}
+
+}  // namespace heightlight

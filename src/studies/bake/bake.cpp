@@ -1,0 +1,200 @@
+#include "bake/bake.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "bake/baked_map.h"
+#include "bake/blue_noise.h"
+#include "bake/sidecar.h"
+#include "bake/texel_encoding.h"
+#include "base/parallel.h"
+#include "base/stopwatch.h"
+#include "files/image_file.h"
+#include "files/output_file.h"
+#include "files/staged_output.h"
+#include "heightlight/closed_forms.h"
+#include "heightlight/error.h"
+#include "visibility/reach_table.h"
+
+namespace heightlight {
+namespace {
+
+const char* extension_of(TextureFormat format) {
+  return format == TextureFormat::png ? ".png" : format == TextureFormat::exr ? ".exr" : ".tif";
+}
+
+SampleType sample_type(TextureDepth depth) {
+  switch (depth) {
+    case TextureDepth::uint8:
+      return SampleType::uint8;
+    case TextureDepth::uint16:
+      return SampleType::uint16;
+    case TextureDepth::half:
+      return SampleType::half;
+    case TextureDepth::real:
+      break;
+  }
+  return SampleType::real;
+}
+
+std::vector<std::string> channel_names(const BakedTexture& texture) {
+  static const std::vector<std::string> kColour{"R", "G", "B", "A"};
+  const std::size_t count = texture.channels.size();
+  if (count == 1) return {"Y"};
+  if (count <= 4) return {kColour.begin(), kColour.begin() + static_cast<std::ptrdiff_t>(count)};
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < count; ++i) names.push_back("c" + std::to_string(100 + i).substr(1));
+  return names;
+}
+
+void write_baked(const std::filesystem::path& path, const BakedTexture& texture, const Surface& surface,
+                 const TexelEncoding& encoding) {
+  const int width = surface.width();
+  const auto count = static_cast<int>(texture.channels.size());
+  const TextureLayout layout{width,
+                             surface.height(),
+                             channel_names(texture),
+                             sample_type(encoding.depth),
+                             {{"ImageDescription", texture.definition}}};
+  write_texture(path, layout, [&](int first, int rows, float* samples) {
+    parallel_for(rows, [&](std::int64_t line) {
+      const int row = first + static_cast<int>(line);
+      float* out = samples + line * width * count;
+      const std::size_t begin = surface.map.height.index(row, 0);
+      for (int column = 0; column < width; ++column) {
+        for (int c = 0; c < count; ++c) {
+          const BakedChannel& channel = texture.channels[static_cast<std::size_t>(c)];
+          const float value = channel.value(begin + static_cast<std::size_t>(column));
+          *out++ = encode_texel(encoding, channel, value, row, column, c);
+        }
+      }
+    });
+  });
+}
+
+/// What the user should know of the input before believing the maps.
+std::vector<std::string> find_warnings(const SourceFacts& facts, const Heightmap& map,
+                                       const BakeOptions& options) {
+  std::vector<std::string> warnings;
+  if (facts.is_integer && facts.levels > 1 && facts.levels <= 256) {
+    warnings.push_back(fmt::format(
+        "only {} levels: slopes are terraces {:.2g} high, which show as contour lines; use the 16-bit or "
+        "float original, or smooth the heights before (nothing is blurred here)",
+        facts.levels, relief(map) / static_cast<double>(facts.levels - 1)));
+  }
+  if (relief(map) == 0) warnings.push_back("the map is level: everything is open");
+  const bool tiles = map.boundary == Boundary::tile;
+  if (tiles && !measure_edge_steps(map.height).wraps) {
+    warnings.push_back("the map is to tile, but its edges do not meet; --boundary open if it stands alone");
+  }
+  if (options.dither && tiles &&
+      (map.height.width % kDitherSide != 0 || map.height.height % kDitherSide != 0)) {
+    warnings.push_back(
+        "the dither repeats every 64 texels, which does not divide the map: its pattern has a seam");
+  }
+  return warnings;
+}
+
+/// Writes the functions that read `ao-n`, beside it.
+void write_shaders(StagedFolder& folder) {
+  write_bytes(folder.file("ao-n.glsl"), stored_pair_shader(ShaderLanguage::glsl));
+  write_bytes(folder.file("ao-n.hlsl"), stored_pair_shader(ShaderLanguage::hlsl));
+}
+
+}  // namespace
+
+const std::vector<MaterialMapName>& material_maps() {
+  static const std::vector<MaterialMapName> kMaps{
+      {MaterialMap::ao, "ao", "ambient occlusion, 1 = open"},
+      {MaterialMap::multibounce, "multibounce", "irradiance of all bounces at --albedo, 1 = unoccluded"},
+      {MaterialMap::bent_normal, "bent-normal", "mean direction of the sky that is seen"},
+      {MaterialMap::bent_cone, "bent-cone", "the same, with the half-angle of a cone in alpha"},
+      {MaterialMap::normal, "normal", "normal of the surface"},
+      {MaterialMap::ao_n, "ao-n", "two channels that give multibounce at any albedo, with a shader"},
+      {MaterialMap::horizon, "horizon", "elevation of the horizon toward some azimuths"},
+      {MaterialMap::sh, "sh", "order-2 spherical harmonics of cosine-weighted visibility"},
+      {MaterialMap::height, "height", "heights from 0 to 1"}};
+  return kMaps;
+}
+
+const char* to_string(MaterialMap map) { return material_maps()[static_cast<std::size_t>(map)].name; }
+
+std::vector<std::string> baked_files(const std::string& name, const BakeOptions& options) {
+  std::vector<std::string> files = texture_suffixes(options);
+  const std::string stem = name + "_";
+  for (std::string& file : files) file.insert(0, stem).append(extension_of(options.format));
+  if (is_wanted(options, MaterialMap::ao_n)) {
+    files.push_back("ao-n.glsl");
+    files.push_back("ao-n.hlsl");
+  }
+  files.push_back(name + "_bake.json");
+  return files;
+}
+
+void check_bake_options(const BakeOptions& options) {
+  const bool integer = largest_level(options.depth) > 0;
+  if (options.maps.empty() && options.packed.empty()) throw UsageError("maps", "", "name at least one map");
+  if (std::set<MaterialMap>(options.maps.begin(), options.maps.end()).size() != options.maps.size()) {
+    throw UsageError("maps", "", "names a map twice");
+  }
+  if (options.format == TextureFormat::png && !integer) {
+    throw UsageError("depth", "", "PNG holds 8 or 16 bits; the formats exr and tif hold floats");
+  }
+  if (options.format == TextureFormat::exr && integer) {
+    throw UsageError("depth", "", "EXR holds half or float; the formats png and tif hold 8 and 16 bits");
+  }
+  if (options.dither && options.depth != TextureDepth::uint8) {
+    throw UsageError("dither", "", "only a depth of 8 bits needs it");
+  }
+  if (options.reach) check_reach(*options.reach);
+  if (!(options.error > 0) || options.error > 1) {
+    throw UsageError("error", std::to_string(options.error), "must be above 0, and 1 at most");
+  }
+  if (options.azimuths != 0) check_azimuths(options.azimuths);
+  if (options.horizon_azimuths < 1 || options.horizon_azimuths > 64) {
+    throw UsageError("horizon_azimuths", std::to_string(options.horizon_azimuths), "must be from 1 to 64");
+  }
+  for (const PackedChannel& channel : options.packed) {
+    if (!channel.map || channel.component < component_count(*channel.map, options)) continue;
+    throw UsageError(
+        "pack", "",
+        std::string(to_string(*channel.map)) + " has no component " + std::to_string(channel.component));
+  }
+}
+
+std::vector<std::string> bake_material(LoadedHeightmap loaded,
+                                       const std::vector<std::filesystem::path>& inputs,
+                                       const BakeOptions& options, const std::filesystem::path& folder,
+                                       const std::string& name) {
+  check_bake_options(options);
+  const std::vector<std::string> files = baked_files(name, options);
+  StagedFolder staged(folder, inputs, files);
+  const Surface surface = build_surface(std::move(loaded.map));
+  const Material material = find_material(surface, options);
+  const std::vector<BakedTexture> textures = baked_textures(material, options);
+  const TexelEncoding encoding = make_encoding(options);
+  Stopwatch watch;
+  SidecarFacts facts{.source = inputs[0],
+                     .facts = loaded.facts,
+                     .warnings = find_warnings(loaded.facts, surface.map, options)};
+  std::vector<std::filesystem::path> paths;
+  for (std::size_t i = 0; i < textures.size(); ++i) {
+    facts.files.push_back(files[i]);
+    paths.push_back(staged.file(files[i]));
+  }
+  // Compression takes longest, and the libraries compress a file on one thread.
+  parallel_for(static_cast<std::int64_t>(textures.size()), [&](std::int64_t i) {
+    const auto at = static_cast<std::size_t>(i);
+    write_baked(paths[at], textures[at], surface, encoding);
+  });
+  if (is_wanted(options, MaterialMap::ao_n)) write_shaders(staged);
+  facts.output_seconds = watch.lap();
+  write_sidecar(staged.file(files.back()), options, material, textures, facts);
+  staged.commit();
+  return facts.warnings;
+}
+
+}  // namespace heightlight

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "heightlight/files.h"
+#include "heightlight/transport.h"
+#include "heightlight/visibility.h"
+#include "heightlight/watch.h"
+
+namespace heightlight {
+
+/// The maps that a material is made of. All vectors are in the axes of the picture: x right, z out of it, y
+/// as BakeOptions::y_down says. Values at missing samples are those of an open, level place in files of
+/// integers, NaN in files of floats.
+enum class MaterialMap {
+  ao,           ///< A (or α): share of the sky that is seen; 1 = open
+  multibounce,  ///< E/π of all bounces under a sky of radiance 1, at the albedo; 1 = unoccluded
+  bent_normal,  ///< unit, along ∫ V ω cosθ dω
+  bent_cone,    ///< the same, with the half-angle of a cone of unoccluded directions
+  normal,       ///< unit normal of the surface
+  ao_n,  ///< A, and n of G(A, n, ρ) = A + ρ (1 − A) n/(1 − ρ (1 − n)), which is E/π of any albedo
+  horizon,  ///< elevation of the horizon toward N azimuths
+  sh,     ///< (1/π) ∫ V Y_lm cosθ dω, l ≤ 2: E/π under a sky is the dot product with its coefficients
+  height  ///< above the lowest sample, over the relief
+};
+
+/// In the order above: what the command line calls it, and one line that says what it is.
+struct MaterialMapName {
+  MaterialMap map;
+  const char* name;
+  const char* description;
+};
+const std::vector<MaterialMapName>& material_maps();
+
+const char* to_string(MaterialMap map);
+
+/// Kinds of file, and how their samples are stored.
+enum class TextureFormat { png, exr, tif };
+enum class TextureDepth { uint8, uint16, half, real };
+
+/// What goes into one channel of a packed texture: a component of a map, or a constant.
+struct PackedChannel {
+  std::optional<MaterialMap> map;
+  int component = 0;
+  double constant = 0;  ///< where there is no map, in [0, 1]
+};
+
+struct BakeOptions {
+  std::vector<MaterialMap> maps;      ///< each in a file of its own
+  std::vector<PackedChannel> packed;  ///< one to four channels of one more file; none where empty
+  bool uniform_ao = false;            ///< α in place of A
+  Albedo albedo{.constant = {0.5}};   ///< of multibounce
+  std::optional<Reach> reach;  ///< of ao, bent normals and cones, horizons and sh; not of multibounce, ao_n
+  bool y_down = false;         ///< as Direct3D has it, where OpenGL has y up
+  bool bent_length = false;    ///< alpha of bent normals: |(3/2π) ∫ V ω cosθ dω|, 1 = open
+  int horizon_azimuths = 4;    ///< N: toward 2π k/N, counterclockwise from x
+  TextureFormat format = TextureFormat::png;
+  TextureDepth depth = TextureDepth::uint16;
+  bool dither = false;           ///< blue noise instead of rounding; 8 bits only
+  double error = 0.002;          ///< RMSE wanted of A and of the total
+  int azimuths = 0;              ///< > 0: those of the sky, fixed
+  std::uint64_t seed = 1;        ///< of pilot, check and dither
+  std::uint64_t memory = ~0ULL;  ///< bytes that all of it may take
+  Watch watch = {};              ///< of the solution
+};
+
+/// Names of all files that baking writes for a map of that name, the sidecar last.
+std::vector<std::string> baked_files(const std::string& name, const BakeOptions& options);
+
+/// Makes the maps of a heightmap and writes them into `folder` as NAME_ao.png …, with NAME_bake.json, which
+/// says what each file holds, how it was found and what it errs by; all or none. One visibility pass serves
+/// all of them (two where both a reach and bounces are wanted; toward the azimuths of horizon maps more).
+/// `inputs` are the files that it was read from, the heightmap first, none of which is replaced. Returns
+/// warnings, one line each. Throws UsageError for options that contradict each other, Error when it can't be
+/// done.
+std::vector<std::string> bake_material(LoadedHeightmap loaded,
+                                       const std::vector<std::filesystem::path>& inputs,
+                                       const BakeOptions& options, const std::filesystem::path& folder,
+                                       const std::string& name);
+
+/// Throws UsageError, naming the option, for what no map can be baked with.
+void check_bake_options(const BakeOptions& options);
+
+}  // namespace heightlight

@@ -1,0 +1,289 @@
+#include "bake/baked_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "bake/bent_cone.h"
+#include "base/texel_algebra.h"
+#include "heightlight/forms.h"
+#include "visibility/sky_harmonics.h"
+
+namespace heightlight {
+namespace {
+
+constexpr double kHalfPi = std::numbers::pi / 2;
+
+/// No coefficient of `sh` is larger: (1/π) ∫ Y² cosθ dω ≤ 0.0995 over all Y of norm 1 and degree 2, whose
+/// root bounds ∫ |Y|; degree 1 reaches 0.326, degree 0 0.282.
+constexpr double kLargestHarmonic = 1.0 / 3;
+
+BakedChannel share(const char* quantity, const Map& map) {
+  return {quantity, "1", 0, 1, 1, [&map](std::size_t i) { return map.values[i]; }};
+}
+
+/// x, y, z of a unit vector per texel.
+template <class Vector>
+std::vector<BakedChannel> unit_vector(bool y_down, Vector&& vector_at) {
+  const float up = y_down ? -1 : 1;
+  return {{"x", "1", -1, 1, 0, [=](std::size_t i) { return vector_at(i).x; }},
+          {"y", "1", -1, 1, 0, [=](std::size_t i) { return up * vector_at(i).y; }},
+          {"z", "1", -1, 1, 1, [=](std::size_t i) { return vector_at(i).z; }}};
+}
+
+/// Along the first moments. Where nothing of the sky is seen there is no direction but the normal's.
+std::vector<BakedChannel> bent_normal_channels(const Material& material, bool y_down) {
+  return unit_vector(y_down, [&material](std::size_t i) {
+    return bent_normal(material.results.moments.first.values[i], material.surface->normal.values[i]);
+  });
+}
+
+BakedChannel bent_length(const Material& material) {
+  return {"length: 3/2 |first moment|, 1 = open", "1", 0, 1, 1, [&material](std::size_t i) {
+            return 1.5F * as_eigen(material.results.moments.first.values[i]).norm();
+          }};
+}
+
+BakedChannel cone_angle(const Material& material, bool by_spread) {
+  return {by_spread ? "half-angle of the cone whose directions are spread as much"
+                    : "half-angle of the cone that is as open: acos sqrt(1 - A)",
+          "rad",
+          0,
+          kHalfPi,
+          kHalfPi,
+          [&material, by_spread](std::size_t i) {
+            const auto sky = static_cast<double>(material.results.sky_view_factor.values[i]);
+            if (std::isnan(sky)) return std::numeric_limits<float>::quiet_NaN();
+            const Vector3& first = material.results.moments.first.values[i];
+            return static_cast<float>(by_spread ? cone_of_spread(sky, first) : cone_of_openness(sky));
+          }};
+}
+
+std::vector<BakedChannel> totals(const Material& material, std::size_t count) {
+  static constexpr const char* kColour[] = {"E/pi, red", "E/pi, green", "E/pi, blue"};
+  std::vector<BakedChannel> channels;
+  for (std::size_t c = 0; c < count; ++c) {
+    channels.push_back({count == 1 ? "E/pi" : kColour[c], "1", 0, 1, 1,
+                        [&material, c](std::size_t i) { return material.totals[c].values[i]; }});
+  }
+  return channels;
+}
+
+std::vector<BakedChannel> horizons(const Material& material, int azimuths) {
+  std::vector<BakedChannel> channels;
+  for (int k = 0; k < azimuths; ++k) {
+    channels.push_back({"toward " + std::to_string(360.0 * k / azimuths) + " degrees", "rad", 0, kHalfPi, 0,
+                        [&material, k](std::size_t i) {
+                          return material.results.horizons[static_cast<std::size_t>(k)].values[i];
+                        }});
+  }
+  return channels;
+}
+
+Harmonics harmonics_at(const Material& material, bool y_down, std::size_t i) {
+  const SkyMoments& moments = material.results.moments;
+  std::array<double, 5> second{};
+  for (std::size_t k = 0; k < 5; ++k) second[k] = static_cast<double>(moments.second.values[i][k]);
+  const Harmonics found =
+      harmonics_of_moments(static_cast<double>(material.results.sky_view_factor.values[i]),
+                           as_eigen(moments.first.values[i]).cast<double>(), second);
+  return y_down ? turn_y(found) : found;
+}
+
+std::vector<BakedChannel> harmonics(const Material& material, bool y_down) {
+  static constexpr const char* kNames[] = {"Y00", "Y1-1", "Y10", "Y11", "Y2-2", "Y2-1", "Y20", "Y21", "Y22"};
+  // Of an open, level place.
+  const Harmonics open = harmonics_of_moments(1, {0, 0, 2.0 / 3}, {0, 0, 0.5, 0, 0});
+  std::vector<BakedChannel> channels;
+  for (std::size_t k = 0; k < 9; ++k) {
+    channels.push_back(
+        {kNames[k], "1", -kLargestHarmonic, kLargestHarmonic, open[k], [&material, y_down, k](std::size_t i) {
+           return static_cast<float>(harmonics_at(material, y_down, i)[k]);
+         }});
+  }
+  return channels;
+}
+
+BakedChannel height(const Material& material) {
+  const Surface& surface = *material.surface;
+  const float span = surface.highest - surface.lowest;
+  return {"height above the lowest sample, over the relief", "1", 0, 1, 0, [&surface, span](std::size_t i) {
+            return span > 0 ? (surface.map.height.values[i] - surface.lowest) / span
+                            : surface.map.height.values[i] * 0;
+          }};
+}
+
+const char* definition(MaterialMap map, const BakeOptions& options) {
+  switch (map) {
+    case MaterialMap::ao:
+      return options.uniform_ao
+                 ? "ambient occlusion: share of the tangent hemisphere's solid angle that sees the sky, "
+                   "(1/2pi) int V dw; 1 = open"
+                 : "ambient occlusion, cosine weighted (sky view factor): (1/pi) int V cos(theta) dw; 1 = "
+                   "open";
+    case MaterialMap::multibounce:
+      return "irradiance of all bounces over pi, under a sky of radiance 1, at the albedo; 1 = unoccluded";
+    case MaterialMap::bent_normal:
+      return options.bent_length
+                 ? "bent normal, cosine weighted: unit vector along b = (1/pi) int V w cos(theta) dw; alpha: "
+                   "its length 3/2 |b|, 1 = open"
+                 : "bent normal, cosine weighted: unit vector along int V w cos(theta) dw";
+    case MaterialMap::bent_cone:
+      return "bent cone: axis along the cosine-weighted bent normal; alpha: half-angle by openness, "
+             "acos sqrt(1 - A), A = (1/pi) int V cos(theta) dw";
+    case MaterialMap::normal:
+      return "unit normal of the surface, from central differences";
+    case MaterialMap::ao_n:
+      return kStoredPairMeaning;
+    case MaterialMap::horizon:
+      return "elevation of the horizon above the horizontal (at least the tangent plane's), toward azimuths "
+             "that count from x toward y";
+    case MaterialMap::sh:
+      return "(1/pi) int V Ylm cos(theta) dw over the orthonormal real spherical harmonics (no "
+             "Condon-Shortley "
+             "phase, pole z): E/pi under a sky is the dot product with the sky's coefficients";
+    case MaterialMap::height:
+      return "height above the lowest sample, over the relief";
+  }
+  return "";
+}
+
+/// A value for every texel, of no map.
+BakedChannel constant(double value) {
+  return {"constant", "1", 0, 1, value, [value](std::size_t) { return static_cast<float>(value); }};
+}
+
+/// What files of a map hold which of its components: [first, last).
+std::vector<std::pair<int, int>> split(int components, TextureFormat format) {
+  constexpr int kMostInPng = 4;
+  const int part = components % 3 == 0 ? 3 : kMostInPng;
+  std::vector<std::pair<int, int>> parts;
+  if (format != TextureFormat::png || components <= kMostInPng) return {{0, components}};
+  for (int first = 0; first < components; first += part) {
+    parts.push_back({first, std::min(first + part, components)});
+  }
+  return parts;
+}
+
+std::vector<std::string> suffixes_of(MaterialMap map, const BakeOptions& options) {
+  const std::string name = to_string(map);
+  if (map == MaterialMap::bent_cone) return {name, name + "-spread"};
+  const std::size_t parts = split(component_count(map, options), options.format).size();
+  if (parts == 1) return {name};
+  std::vector<std::string> suffixes;
+  for (std::size_t i = 0; i < parts; ++i) suffixes.push_back(name + "-" + std::to_string(i));
+  return suffixes;
+}
+
+void add_textures(MaterialMap map, const Material& material, const BakeOptions& options,
+                  std::vector<BakedTexture>& textures) {
+  const std::vector<BakedChannel> channels = baked_channels(map, material, options);
+  const std::vector<std::string> suffixes = suffixes_of(map, options);
+  if (map == MaterialMap::bent_cone) {
+    textures.push_back({suffixes[0], definition(map, options), {channels.begin(), channels.begin() + 4}});
+    textures.push_back({suffixes[1],
+                        "bent cone, half-angle by spread: the cone about the normal whose "
+                        "cosine-weighted directions have a mean of the same length",
+                        {channels[4]}});
+    return;
+  }
+  const auto parts = split(static_cast<int>(channels.size()), options.format);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    textures.push_back({suffixes[i],
+                        definition(map, options),
+                        {channels.begin() + parts[i].first, channels.begin() + parts[i].second}});
+    if (options.format == TextureFormat::png && textures.back().channels.size() == 2) {
+      textures.back().channels.push_back(constant(0));
+    }
+  }
+}
+
+}  // namespace
+
+int component_count(MaterialMap map, const BakeOptions& options) {
+  switch (map) {
+    case MaterialMap::ao:
+    case MaterialMap::height:
+      return 1;
+    case MaterialMap::multibounce:
+      return static_cast<int>(options.albedo.channels());
+    case MaterialMap::bent_normal:
+      return options.bent_length ? 4 : 3;
+    case MaterialMap::bent_cone:
+      return 5;
+    case MaterialMap::normal:
+      return 3;
+    case MaterialMap::ao_n:
+      return 2;
+    case MaterialMap::horizon:
+      return options.horizon_azimuths;
+    case MaterialMap::sh:
+      return 9;
+  }
+  return 0;
+}
+
+std::vector<BakedChannel> baked_channels(MaterialMap map, const Material& material,
+                                         const BakeOptions& options) {
+  std::vector<BakedChannel> channels;
+  switch (map) {
+    case MaterialMap::ao:
+      return {options.uniform_ao ? share("ambient occlusion", material.results.ambient_occlusion)
+                                 : share("sky view factor", material.results.sky_view_factor)};
+    case MaterialMap::multibounce:
+      return totals(material, options.albedo.channels());
+    case MaterialMap::bent_normal:
+      channels = bent_normal_channels(material, options.y_down);
+      if (options.bent_length) channels.push_back(bent_length(material));
+      return channels;
+    case MaterialMap::bent_cone:
+      channels = bent_normal_channels(material, options.y_down);
+      channels.push_back(cone_angle(material, false));
+      channels.push_back(cone_angle(material, true));
+      return channels;
+    case MaterialMap::normal:
+      return unit_vector(options.y_down,
+                         [&material](std::size_t i) { return material.surface->normal.values[i]; });
+    case MaterialMap::ao_n:
+      return {share("sky view factor A", material.results.whole_sky_view_factor),
+              share("n", material.results.seen)};
+    case MaterialMap::horizon:
+      return horizons(material, options.horizon_azimuths);
+    case MaterialMap::sh:
+      return harmonics(material, options.y_down);
+    case MaterialMap::height:
+      return {height(material)};
+  }
+  return channels;
+}
+
+std::vector<BakedTexture> baked_textures(const Material& material, const BakeOptions& options) {
+  std::vector<BakedTexture> textures;
+  for (const MaterialMap map : options.maps) add_textures(map, material, options, textures);
+  if (options.packed.empty()) return textures;
+  BakedTexture packed{"packed", "channels of several maps", {}};
+  for (const PackedChannel& channel : options.packed) {
+    if (!channel.map) {
+      packed.channels.push_back(constant(channel.constant));
+      continue;
+    }
+    packed.channels.push_back(
+        baked_channels(*channel.map, material, options)[static_cast<std::size_t>(channel.component)]);
+    packed.channels.back().quantity.insert(0, std::string(to_string(*channel.map)) + ": ");
+  }
+  textures.push_back(std::move(packed));
+  return textures;
+}
+
+std::vector<std::string> texture_suffixes(const BakeOptions& options) {
+  std::vector<std::string> suffixes;
+  for (const MaterialMap map : options.maps) {
+    for (std::string& suffix : suffixes_of(map, options)) suffixes.push_back(std::move(suffix));
+  }
+  if (!options.packed.empty()) suffixes.push_back("packed");
+  return suffixes;
+}
+
+}  // namespace heightlight

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "bake/bake.h"
+#include "bake/model_map.h"
+#include "heightlight/solve.h"
+
+namespace heightlight {
+
+/// All that is known of a surface before its maps are written: one solution, from which every channel of
+/// every map follows texel by texel.
+struct Material {
+  const Surface* surface = nullptr;
+  Results results;          ///< the sky as far as the reach; horizons in the axes of the files
+  std::vector<Map> totals;  ///< E/π, per channel of the albedo
+  std::vector<ModelError> model_errors;
+};
+
+/// Whether a map is to be written, alone or packed.
+bool is_wanted(const BakeOptions& options, MaterialMap map);
+
+/// Finds what the wanted maps need, and nothing else. `surface` must outlive the result. Throws what solve
+/// throws.
+Material find_material(const Surface& surface, const BakeOptions& options);
+
+}  // namespace heightlight

@@ -1,0 +1,141 @@
+#include "bake/sidecar.h"
+
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "bake/texel_encoding.h"
+#include "base/texel_algebra.h"
+#include "files/evidence_json.h"
+#include "files/output_file.h"
+#include "heightlight/version.h"
+
+namespace heightlight {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const char* to_string(TextureDepth depth) {
+  switch (depth) {
+    case TextureDepth::uint8:
+      return "8";
+    case TextureDepth::uint16:
+      return "16";
+    case TextureDepth::half:
+      return "half";
+    case TextureDepth::real:
+      return "float";
+  }
+  return "";
+}
+
+const char* to_string(Falloff falloff) {
+  switch (falloff) {
+    case Falloff::none:
+      return "none";
+    case Falloff::linear:
+      return "linear";
+    case Falloff::root:
+      return "sqrt";
+  }
+  return "";
+}
+
+Json describe_channel(const BakedChannel& channel, TextureDepth depth) {
+  Json json = {{"quantity", channel.quantity}, {"unit", channel.unit}};
+  const int levels = largest_level(depth);
+  if (levels == 0) return json;
+  json["value_of_level_0"] = channel.low;
+  json["value_of_level_" + std::to_string(levels)] = channel.high;
+  json["missing_samples"] = channel.missing;
+  return json;
+}
+
+Json describe_textures(const BakeOptions& options, const std::vector<BakedTexture>& textures,
+                       const std::vector<std::string>& files) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < textures.size(); ++i) {
+    Json channels = Json::array();
+    for (const BakedChannel& channel : textures[i].channels) {
+      channels.push_back(describe_channel(channel, options.depth));
+    }
+    list.push_back({{"file", files[i]}, {"definition", textures[i].definition}, {"channels", channels}});
+  }
+  return list;
+}
+
+Json describe_conventions(const BakeOptions& options) {
+  return {{"encoding", "linear"},
+          {"depth", to_string(options.depth)},
+          {"levels", largest_level(options.depth) == 0 ? Json(nullptr)
+                     : options.dither                  ? Json("dithered by blue noise")
+                                                       : Json("rounded to the nearest")},
+          {"normal_y", options.y_down ? "directx (y down the picture)" : "opengl (y up the picture)"},
+          {"axes", "x right, z out of the picture"},
+          {"rows", "from the top"}};
+}
+
+Json describe_reach(const BakeOptions& options) {
+  if (!options.reach) return "unlimited";
+  return {{"max_distance", options.reach->distance},
+          {"falloff", to_string(options.reach->falloff)},
+          {"applies_to", "ao, bent-normal, bent-cone, sh; horizon (without falloff)"},
+          {"not_to", "multibounce, ao-n: bounces come from everywhere"}};
+}
+
+/// What each kind of map errs by; `visibility` says on what that was found.
+Json describe_errors(const BakeOptions& options, const Material& material) {
+  const Evidence& evidence = material.results.evidence;
+  Json json;
+  if (evidence.sky_check) {
+    const SkyCheck& check = *evidence.sky_check;
+    json["ao_rmse"] = options.uniform_ao ? check.ambient_occlusion : check.sky_view_factor;
+    if (check.bent_normal_rad) {
+      json["bent_normal_rmse_degrees"] = *check.bent_normal_rad * 180 / std::numbers::pi;
+    }
+    if (check.harmonics) json["sh_coefficient_rmse"] = *check.harmonics;
+  }
+  if (is_wanted(options, MaterialMap::multibounce) && !evidence.total_checks.empty()) {
+    json["multibounce_rmse"] = evidence.total_checks[0].total_rmse;
+  }
+  for (const ModelError& error : material.model_errors) {
+    json["ao_n_rmse_against_simulation"].push_back({{"albedo", error.albedo},
+                                                    {"unrounded", error.rmse},
+                                                    {"16_bits", error.rmse_16_bits},
+                                                    {"8_bits", error.rmse_8_bits}});
+  }
+  return json;
+}
+
+Json describe_albedo(const Albedo& albedo) {
+  if (albedo.varying.empty()) return albedo.constant;
+  Json means = Json::array();
+  for (const TexelVector& values : albedo.varying) means.push_back(as_eigen(values).mean());
+  return {{"mean_of_map", means}};
+}
+
+}  // namespace
+
+void write_sidecar(const std::filesystem::path& path, const BakeOptions& options, const Material& material,
+                   const std::vector<BakedTexture>& textures, const SidecarFacts& facts) {
+  const Evidence& evidence = material.results.evidence;
+  Json json;
+  json["version"] = HEIGHTLIGHT_VERSION;
+  json["map"] = describe_map(facts.source, facts.facts.sha256, *material.surface);
+  json["files"] = describe_textures(options, textures, facts.files);
+  json["conventions"] = describe_conventions(options);
+  json["reach"] = describe_reach(options);
+  if (is_wanted(options, MaterialMap::multibounce)) {
+    json["albedo"] = describe_albedo(options.albedo);
+    json["bounces"] = {{"gathered", evidence.bounces}, {"then", "the rest, to convergence"}};
+  }
+  json.update(describe_evidence(evidence));
+  json["errors"] = describe_errors(options, material);
+  json["warnings"] = facts.warnings;
+  json["time_s"] = describe_times(evidence.seconds);
+  json["time_s"]["output"] = facts.output_seconds;
+  json["memory"] = describe_memory(evidence);
+  json["threads"] = evidence.threads;
+  write_bytes(path, json_text(json));
+}
+
+}  // namespace heightlight

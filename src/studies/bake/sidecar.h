@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "bake/baked_map.h"
+
+namespace heightlight {
+
+/// What the sidecar tells beside what the material knows.
+struct SidecarFacts {
+  std::filesystem::path source;
+  SourceFacts facts;
+  std::vector<std::string> files = {};  ///< of the textures, in their order
+  std::vector<std::string> warnings;
+  double output_seconds = 0;  ///< that writing the textures took
+};
+
+/// Writes NAME_bake.json: definition, unit, range, options and errors of each file. Throws Error naming it.
+void write_sidecar(const std::filesystem::path& path, const BakeOptions& options, const Material& material,
+                   const std::vector<BakedTexture>& textures, const SidecarFacts& facts);
+
+}  // namespace heightlight

@@ -1,0 +1,63 @@
+#include "comparison/closed_form_totals.h"
+
+#include <cmath>
+#include <limits>
+
+#include "base/parallel.h"
+
+namespace heightlight {
+namespace {
+
+bool has(const Map& map) { return map.size() > 0; }
+
+/// t, from a map of n.
+SeenSkyViewFactor<double> deep_seen(const Estimate& estimate) {
+  SeenMoments moments;
+  for (std::size_t i = 0; i < estimate.seen.size(); ++i) {
+    if (std::isnan(estimate.sky_view_factor.values[i])) continue;
+    moments.add(SkyViewFactor<double>(double{estimate.sky_view_factor.values[i]}),
+                SeenSkyViewFactor<double>(double{estimate.seen.values[i]}));
+  }
+  return tune_deep_seen(moments);
+}
+
+}  // namespace
+
+bool can_evaluate(const ClosedForm& form, const Estimate& estimate) {
+  const bool wants_seen = form.extra == ExtraInput::seen || form.extra == ExtraInput::deep_seen;
+  if (wants_seen && !has(estimate.seen)) return false;
+  if (form.extra != ExtraInput::none && !has(estimate.sky_view_factor)) return false;
+  return has(form.kind == AoKind::ambient_occlusion ? estimate.ambient_occlusion : estimate.sky_view_factor);
+}
+
+Map evaluate_closed_form(const ClosedForm& form, const Estimate& estimate, const Surface& surface,
+                         const ComparedAlbedo& albedo) {
+  const Map& occlusion =
+      form.kind == AoKind::ambient_occlusion ? estimate.ambient_occlusion : estimate.sky_view_factor;
+  Map blurred;
+  if (form.extra == ExtraInput::blurred) blurred = blur_seen(estimate.sky_view_factor, surface.tiles());
+  SeenSkyViewFactor<double> expected{0};
+  if (form.extra == ExtraInput::expected_seen) expected = expected_seen(estimate.sky_view_factor, surface);
+  SeenSkyViewFactor<double> deep{0};
+  if (form.extra == ExtraInput::deep_seen) deep = deep_seen(estimate);
+  Map total(surface.width(), surface.height());
+  parallel_for(total.height, [&](std::int64_t row) {
+    for (std::int64_t i = row * total.width; i < (row + 1) * total.width; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      const double value = double{occlusion.values[at]};
+      ModelInputs inputs;
+      inputs.ambient_occlusion = AmbientOcclusion<double>(value);
+      inputs.sky_view_factor = SkyViewFactor<double>(value);
+      inputs.expected_seen = expected;
+      inputs.deep_seen = deep;
+      if (has(blurred)) inputs.blurred = SeenSkyViewFactor<double>(double{blurred.values[at]});
+      if (has(estimate.seen)) inputs.seen = SeenSkyViewFactor<double>(double{estimate.seen.values[at]});
+      const std::optional<double> found =
+          std::isnan(value) ? std::nullopt : form.evaluate(inputs, albedo.reflectance[at]);
+      total.values[at] = found ? static_cast<float>(*found) : std::numeric_limits<float>::quiet_NaN();
+    }
+  });
+  return total;
+}
+
+}  // namespace heightlight

@@ -1,0 +1,129 @@
+#include "comparison/contenders.h"
+
+#include <fmt/core.h>
+
+#include <utility>
+
+#include "heightlight/solve.h"
+
+namespace heightlight {
+namespace {
+
+/// What `simulate` or `bake` would find, without evidence: what that costs is not the method's.
+Estimate solve_scene(const ComparedScene& scene, const Wanted& wanted, const Accuracy& accuracy) {
+  Request request{.wanted = wanted, .accuracy = accuracy};
+  request.checks = {.sky = false, .totals = false, .energy = false};
+  request.limits.memory = scene.memory;
+  Results results = solve(scene.surface, request);
+  Estimate estimate;
+  estimate.sky_view_factor = std::move(results.sky_view_factor);
+  estimate.ambient_occlusion = std::move(results.ambient_occlusion);
+  for (const std::vector<TexelVector>& channels : results.totals) {
+    estimate.totals.push_back(to_map(channels[0], scene.surface));
+  }
+  estimate.samples_per_texel = results.evidence.rays;
+  return estimate;
+}
+
+Accuracy by_rays(const ComparedScene& scene, int count) {
+  return {.visibility = Visibility::rays, .rays = count, .seed = scene.seed};
+}
+
+/// Every azimuth from every receiver.
+Accuracy by_fixed_walk(const ComparedScene& scene, const WalkOptions& walk) {
+  return {.seed = scene.seed, .plan = HorizonPlan{.sky = {.walk = walk}}};
+}
+
+Estimate find_sky_alone(const ComparedScene& scene, const Accuracy& accuracy) {
+  return solve_scene(scene, {.sky = true}, accuracy);
+}
+
+/// The totals, and nothing else: what finding A alone costs is another contender's.
+Estimate find_totals_alone(const ComparedScene& scene, const Accuracy& accuracy) {
+  Wanted wanted;
+  for (const ComparedAlbedo& albedo : scene.albedos) wanted.totals.push_back(albedo.albedo());
+  return solve_scene(scene, wanted, accuracy);
+}
+
+Estimate run_screen_space(const ComparedScene& scene, const ScreenSpaceMethod& method) {
+  std::vector<SurfaceAlbedo> albedos;
+  for (const ComparedAlbedo& albedo : scene.albedos)
+    albedos.push_back(
+        {.constant = albedo.reflectance[0], .map = albedo.constant() ? nullptr : &albedo.varying});
+  ScreenSpaceView view = method.run(scene.depth, albedos);
+  Estimate estimate;
+  estimate.sky_view_factor = std::move(view.sky_view_factor);
+  estimate.ambient_occlusion = std::move(view.ambient_occlusion);
+  estimate.bent_normal = std::move(view.bent_normal);
+  estimate.half_sky = std::move(view.half_sky);
+  estimate.seen = std::move(view.seen);
+  estimate.totals = std::move(view.totals);
+  estimate.samples_per_texel = view.samples_per_texel;
+  return estimate;
+}
+
+void add_rays(const ComparedScene& scene, std::vector<Contender>& contenders) {
+  for (const int count : {4, 16, 64, 256}) {
+    contenders.push_back({.method = "rays",
+                          .parameters = fmt::format("{} rays", count),
+                          .shown = count == 64,
+                          .run = [scene, count] { return find_sky_alone(scene, by_rays(scene, count)); }});
+  }
+  for (const int count : {16, 64, 256}) {
+    contenders.push_back({.method = "rays with links",
+                          .parameters = fmt::format("{} rays", count),
+                          .run = [scene, count] { return find_totals_alone(scene, by_rays(scene, count)); }});
+  }
+}
+
+void add_walks(const ComparedScene& scene, std::vector<Contender>& contenders) {
+  for (const auto& [azimuths, fineness] : {std::pair{4, 8}, {8, 8}, {16, 8}, {16, 16}, {32, 16}, {64, 32}}) {
+    const WalkOptions walk{.azimuths = azimuths, .fineness = fineness, .peak_share = 0.3F};
+    contenders.push_back(
+        {.method = "horizon walk",
+         .parameters = fmt::format("{} azimuths; fineness {}", azimuths, fineness),
+         .shown = azimuths == 8,
+         .run = [scene, walk] { return find_sky_alone(scene, by_fixed_walk(scene, walk)); }});
+  }
+  const auto planned = [&](double error) { return Accuracy{.error = error, .seed = scene.seed}; };
+  for (const double error : {0.01, 0.005, 0.002, 0.001}) {
+    contenders.push_back({.method = "horizon walk planned",
+                          .parameters = fmt::format("error {:g}", error),
+                          .run = [scene, how = planned(error)] { return find_sky_alone(scene, how); }});
+  }
+  for (const double error : {0.02, 0.01, 0.005, 0.002}) {
+    contenders.push_back({.method = "horizon walk with links",
+                          .parameters = fmt::format("error {:g}", error),
+                          .run = [scene, how = planned(error)] { return find_totals_alone(scene, how); }});
+  }
+}
+
+}  // namespace
+
+std::vector<Contender> make_contenders(const ComparedScene& scene) {
+  std::vector<Contender> contenders;
+  add_rays(scene, contenders);
+  add_walks(scene, contenders);
+  for (const ScreenSpaceMethod& method : screen_space_methods()) {
+    contenders.push_back({.method = method.name,
+                          .parameters = method.parameters,
+                          .shown = method.shown,
+                          .run = [scene, &method] { return run_screen_space(scene, method); }});
+  }
+  return contenders;
+}
+
+std::vector<std::string> shown_methods() {
+  // Nothing of the scene is looked at before a method runs.
+  const Surface surface;
+  const DepthBuffer depth;
+  const std::vector<ComparedAlbedo> albedos;
+  std::vector<std::string> names;
+  for (const Contender& contender :
+       make_contenders({.surface = surface, .depth = depth, .albedos = albedos})) {
+    if (contender.shown) names.push_back(contender.method);
+  }
+  return names;
+}
+
+}  // namespace heightlight

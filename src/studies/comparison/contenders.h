@@ -1,0 +1,46 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "comparison/reference.h"
+#include "heightlight/screenspace.h"
+
+namespace heightlight {
+
+/// What a method finds; what it has no word for is 0 × 0 or absent.
+struct Estimate {
+  Map sky_view_factor;
+  Map ambient_occlusion;
+  Image<Vector3> bent_normal;
+  Map half_sky;             ///< E/π under a sky that shines only from y > 0
+  Map seen;                 ///< n, the mean sky view factor of what a texel sees
+  std::vector<Map> totals;  ///< E/π per albedo
+  double samples_per_texel = 0;
+};
+
+/// A method with its parameters, ready to run on the surface that it was made for.
+struct Contender {
+  std::string method;
+  std::string parameters;
+  bool shown = false;  ///< its errors are drawn, and closed forms are tried on it
+  std::function<Estimate()> run;
+};
+
+/// What contenders work on; all of it must outlive them.
+struct ComparedScene {
+  const Surface& surface;
+  const DepthBuffer& depth;
+  const std::vector<ComparedAlbedo>& albedos;
+  std::uint64_t memory = ~0ULL;  ///< bytes that a method may take
+  std::uint64_t seed = 1;
+};
+
+/// Rays, horizon walks fixed and planned, and the table of screen-space methods.
+std::vector<Contender> make_contenders(const ComparedScene& scene);
+
+/// Names of the methods that are shown, in that order, without running any.
+std::vector<std::string> shown_methods();
+
+}  // namespace heightlight

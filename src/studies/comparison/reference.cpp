@@ -1,0 +1,145 @@
+#include "comparison/reference.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "base/hash.h"
+#include "base/parallel.h"
+#include "base/texel_algebra.h"
+#include "visibility/exact_walk.h"
+#include "visibility/ray_caster.h"
+#include "visibility/slice_integrals.h"
+
+namespace heightlight {
+namespace {
+
+constexpr int kCheckedReceivers = 256;
+constexpr double kTotalError = 0.001;  // wanted of the totals
+
+/// What the sky's half with y > 0 sends: the azimuths of the first half turn.
+double half_sky(const Surface& surface, const ExactWalker& walker, const SliceView& view, int row,
+                int column) {
+  const Eigen::Vector3d normal = as_eigen(surface.normal(row, column)).cast<double>();
+  double half = 0;
+  double hemisphere = 0;
+  for (int k = 0; k < walker.azimuths(); ++k) {
+    const double azimuth = walker.azimuth_rad(k);
+    const double along = normal.x() * std::cos(azimuth) + normal.y() * std::sin(azimuth);
+    const SliceNormal in_slice{along, normal.z()};
+    const double tangent = tangent_slope(in_slice);
+    hemisphere += cosine_mass(in_slice, elevation_of_slope(tangent), Elevation{});
+    if (azimuth >= std::numbers::pi) continue;
+    const double horizon = std::tan(view.horizon_rad[static_cast<std::size_t>(k)]);
+    half += cosine_mass(in_slice, elevation_of_slope(std::max(tangent, horizon)), Elevation{});
+  }
+  return half / hemisphere;
+}
+
+void walk_all(const Surface& surface, const ReferenceOptions& options, ComparisonReference& reference) {
+  const Stopwatch watch;
+  const ExactWalker walker(surface, options.azimuths);
+  reference.azimuths = options.azimuths;
+  reference.ambient_occlusion = reference.sky_view_factor = reference.half_sky =
+      Map(surface.width(), surface.height());
+  reference.bent_normal = Image<Vector3>(surface.width(), surface.height());
+  Progress progress("reference", surface.height(), options.watch);
+  parallel_for(
+      surface.height(),
+      [&](std::int64_t i) {
+        const int row = static_cast<int>(i);
+        SliceView view;
+        for (int column = 0; column < surface.width(); ++column) {
+          walker.view(row, column, view);
+          reference.ambient_occlusion(row, column) = static_cast<float>(view.ambient_occlusion);
+          reference.sky_view_factor(row, column) = static_cast<float>(view.sky_view_factor);
+          reference.bent_normal(row, column) = to_vector3(view.bent_normal.cast<float>());
+          reference.half_sky(row, column) =
+              std::isnan(view.sky_view_factor)
+                  ? std::numeric_limits<float>::quiet_NaN()
+                  : static_cast<float>(half_sky(surface, walker, view, row, column));
+        }
+      },
+      &progress);
+  reference.cost = watch.elapsed();
+}
+
+struct CheckedReceiver {
+  bool present = false;
+  double sky = 0;
+  double bent_deg = 0;
+  double rays = 0;
+};
+
+CheckedReceiver check_receiver(const ExactWalker& walker, const RayCaster& caster,
+                               const ComparisonReference& reference, int row, int column) {
+  SliceView view;
+  walker.view(row, column, view);
+  if (std::isnan(view.sky_view_factor)) return {};
+  const double sky = double{reference.sky_view_factor(row, column)};
+  const Eigen::Vector3d bent = as_eigen(reference.bent_normal(row, column)).cast<double>();
+  RayWorkspace workspace(caster.rays());
+  ReceiverView rays;
+  caster.view(row, column, workspace, rays);
+  CheckedReceiver checked;
+  checked.present = true;
+  checked.sky = sky - view.sky_view_factor;
+  checked.bent_deg =
+      std::atan2(bent.cross(view.bent_normal).norm(), bent.dot(view.bent_normal)) * 180 / std::numbers::pi;
+  checked.rays = sky - sky_share(rays).sky_view_factor;
+  return checked;
+}
+
+/// What the walks err by, on a sample of receivers.
+void check_walks(const Surface& surface, const ReferenceOptions& options, ComparisonReference& reference) {
+  const ExactWalker walker(surface, kCheckAzimuths);
+  const RayCaster caster(surface, {.rays = kCheckRays, .seed = options.seed});
+  std::vector<CheckedReceiver> receivers(kCheckedReceivers);
+  parallel_for(kCheckedReceivers, [&](std::int64_t i) {
+    const std::uint64_t pick = hash_combine(options.seed + 7, static_cast<std::uint64_t>(i));
+    const auto texel = static_cast<int>(pick % surface.map.height.size());
+    receivers[static_cast<std::size_t>(i)] =
+        check_receiver(walker, caster, reference, texel / surface.width(), texel % surface.width());
+  });
+  for (const CheckedReceiver& receiver : receivers) {
+    if (!receiver.present) continue;
+    ++reference.checked;
+    reference.sky_rmse += receiver.sky * receiver.sky;
+    reference.bent_rmse_deg += receiver.bent_deg * receiver.bent_deg;
+    reference.ray_rmse += receiver.rays * receiver.rays;
+  }
+  if (reference.checked == 0) return;
+  for (double* squares : {&reference.sky_rmse, &reference.bent_rmse_deg, &reference.ray_rmse}) {
+    *squares = std::sqrt(*squares / reference.checked);
+  }
+}
+
+void find_totals(const Surface& surface, const ReferenceOptions& options, ComparisonReference& reference) {
+  const Stopwatch watch;
+  Request request;
+  for (const ComparedAlbedo& albedo : options.albedos) request.wanted.totals.push_back(albedo.albedo());
+  request.accuracy = {.error = kTotalError, .seed = options.seed};
+  request.limits.memory = options.memory;
+  request.watch = options.watch;
+  const Results results = solve(surface, request);
+  reference.total_cost = watch.elapsed();
+  reference.total_evidence = results.evidence;
+  for (const std::vector<TexelVector>& channels : results.totals) {
+    reference.totals.push_back(to_map(channels[0], surface));
+  }
+}
+
+}  // namespace
+
+ComparisonReference build_reference(const Surface& surface, const ReferenceOptions& options) {
+  check_azimuths(options.azimuths);
+  ComparisonReference reference;
+  walk_all(surface, options, reference);
+  check_walks(surface, options, reference);
+  find_totals(surface, options, reference);
+  return reference;
+}
+
+}  // namespace heightlight

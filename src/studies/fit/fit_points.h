@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "fit/form_family.h"
+#include "fit/judged_map.h"
+#include "fit/least_squares.h"
+
+namespace heightlight {
+
+/// Something to fit to: a bin of a map's curves, or a cell of its texels.
+struct FitPoint {
+  ModelInputs inputs;
+  double weight = 0;  ///< its share of the map's texels, so that maps count alike
+  std::size_t map = 0;
+  SeenMoments moments;           ///< of its map
+  std::vector<double> measured;  ///< one per albedo of the target
+};
+
+/// Points of the maps that have what the family needs: bins of curves, or cells of 1/24 × 1/24 of A and the
+/// extra input where that varies over the map.
+std::vector<FitPoint> collect_points(const FormFamily& family, const std::vector<JudgedMap>& maps);
+
+/// Least squares over the points, each weighed by `map_weight` of its map too; maps of weight 0 are left out.
+LeastSquaresFit fit_family(const FormFamily& family, const std::vector<FitPoint>& points,
+                           const std::vector<double>& map_weights);
+
+}  // namespace heightlight
