@@ -49,18 +49,21 @@ void measure(const Options& options, const std::filesystem::path& folder, const 
   const Stopwatch watch;
   LoadedHeightmap loaded = load_heightmap(path, {}, options.memory);
   const double load = watch.elapsed().wall;
-  bake_material(std::move(loaded), path, bake, folder / "out", "m");
+  bake_material(std::move(loaded), {path}, bake, folder / "out", "m");
   const Cost all = watch.elapsed();
   const std::uint64_t peak = peak_memory();
   const nlohmann::json sidecar = nlohmann::json::parse(std::ifstream(folder / "out" / "m_bake.json"));
   const nlohmann::json& time = sidecar["time_s"];
   const nlohmann::json& errors = sidecar["errors"];
   const nlohmann::json& visibility = sidecar["visibility"];
-  const WalkOptions plan{visibility["azimuths"], visibility["fineness"], visibility["peak_share"]};
+  const SkyPlan plan{.walk = {.azimuths = visibility["azimuths"],
+                              .fineness = visibility["fineness"],
+                              .peak_share = visibility["peak_share"]},
+                     .full_from = visibility["full_from"]};
   const Surface surface = build_surface(load_heightmap(path, {}, options.memory).map);
   const HeightMips mips = build_height_mips(surface);
   const Stopwatch walk_watch;
-  walk_horizon_sky(surface, mips, plan, true, {{}, {}, visibility["full_from"].get<double>()});
+  walk_horizon_sky(surface, mips, plan);
   const Cost walk = walk_watch.elapsed();
   const double megatexels = 1e-6 * size * size;
   const auto per = [megatexels](double seconds) { return seconds / megatexels; };

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "heightlight/heightmap.h"
+#include "heightlight/files.h"
 #include "heightlight/synth.h"
 
 namespace heightlight {

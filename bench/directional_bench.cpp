@@ -23,6 +23,7 @@
 #include "base/gauss_legendre.h"
 #include "base/hash.h"
 #include "base/parallel.h"
+#include "base/texel_algebra.h"
 #include "bench_map.h"
 #include "heightlight/error.h"
 #include "visibility/exact_walk.h"
@@ -85,7 +86,7 @@ std::vector<Sky> make_skies() {
 std::vector<Colour> look_exactly(const ExactWalker& walker, int row, int column,
                                  const std::vector<Sky>& skies) {
   static const std::vector<QuadratureNode> kNodes = gauss_legendre(24);
-  const Eigen::Vector3d normal = walker.surface().normal(row, column).cast<double>().normalized();
+  const Eigen::Vector3d normal = as_eigen(walker.surface().normal(row, column)).cast<double>().normalized();
   SliceView view;
   walker.view(row, column, view);
   std::vector<Colour> seen(skies.size(), Colour::Zero());
@@ -137,17 +138,19 @@ const std::vector<std::string> kMethods{"sh", "bent cone", "bent cone, spread", 
 
 /// E/π of one receiver by every method.
 std::vector<Colour> shade(const Material& material, std::size_t texel, const Sky& sky) {
-  const auto share = static_cast<double>(material.sky.sky_view_factor.values[texel]);
-  const Eigen::Vector3f& first = material.sky.moments.first.values[texel];
+  const Results& found = material.results;
+  const auto share = static_cast<double>(found.sky_view_factor.values[texel]);
+  const Vector3& stored = found.moments.first.values[texel];
+  const Eigen::Vector3d first = as_eigen(stored).cast<double>();
   std::array<double, 5> second{};
   for (std::size_t k = 0; k < 5; ++k) {
-    second[k] = static_cast<double>(material.sky.moments.second.values[texel][k]);
+    second[k] = static_cast<double>(found.moments.second.values[texel][k]);
   }
-  const Eigen::Vector3d normal = material.surface->normal.values[texel].cast<double>().normalized();
-  const Eigen::Vector3d bent = first.norm() > 0 ? Eigen::Vector3d(first.cast<double>().normalized()) : normal;
-  return {look(sky, harmonics_of_moments(share, first.cast<double>(), second)),
+  const Eigen::Vector3d normal = as_eigen(material.surface->normal.values[texel]).cast<double>().normalized();
+  const Eigen::Vector3d bent = first.norm() > 0 ? Eigen::Vector3d(first.normalized()) : normal;
+  return {look(sky, harmonics_of_moments(share, first, second)),
           look(sky, turn_zonal(cone(cone_of_openness(share)), bent)),
-          look(sky, turn_zonal(cone(cone_of_spread(share, first)), bent)),
+          look(sky, turn_zonal(cone(cone_of_spread(share, stored)), bent)),
           share * look(sky, turn_zonal(cone(kPi / 2), bent)),
           share * look(sky, turn_zonal(cone(kPi / 2), normal))};
 }
@@ -180,7 +183,7 @@ void judge(const Options& options, const std::string& map_name, const std::vecto
   const Surface surface = build_surface(std::move(tile));
   BakeOptions bake;
   bake.maps = {MaterialMap::sh};
-  const Material material = find_material(surface, bake, map_name);
+  const Material material = find_material(surface, bake);
   const ExactWalker walker(surface, options.azimuths);
   std::vector<std::vector<Score>> scores(static_cast<std::size_t>(options.receivers));
   parallel_for(options.receivers, [&](std::int64_t i) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/texel_algebra.h"
+
 namespace heightlight {
 namespace {
 
@@ -68,7 +70,7 @@ const RayLattice& EmbreeRays::lattice_of(const LatticeTurn& turn) const {
 EmbreeRays::Stand EmbreeRays::stand_at(std::size_t receiver) const {
   const auto width = static_cast<std::size_t>(surface_.width());
   const LatticeTurn turn = turn_at(receiver);
-  const Eigen::Vector3f normal = surface_.normal.values[receiver];
+  const Eigen::Vector3f normal = as_eigen(surface_.normal.values[receiver]);
   const Eigen::Vector3f tangent = normal.unitOrthogonal();
   const Eigen::Vector3f bitangent = normal.cross(tangent);
   Stand stand;

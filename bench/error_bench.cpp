@@ -60,7 +60,7 @@ void print_embree_ways(const EmbreeBest& best) {
 }
 
 /// How far a method is from the reference when its own noise is gone.
-void print_bias(const Method& method, const Reference& reference) {
+void print_bias(const Method& method, const ReferenceValues& reference) {
   constexpr int kRays = 65536;
   method.set_up(kRays);
   const std::vector<float> values = method.run_receivers(kRays, reference.receivers);
@@ -84,7 +84,7 @@ struct Tables {
 };
 
 void race(Tables& tables, const RaceName& name, const std::vector<Method>& methods, const Surface& surface,
-          const Reference& reference, const std::vector<double>& targets) {
+          const ReferenceValues& reference, const std::vector<double>& targets) {
   std::vector<TimeToError> results;
   for (const Method& method : methods) {
     for (const TimeToError& result : time_to_error(method, surface, reference, targets)) {
@@ -118,10 +118,10 @@ void print_total_reference_error(const std::string& map) {
   const Surface surface = build_surface(make_bench_map(map, kSize).value());
   TotalReferenceOptions options;
   options.albedo = kAlbedo;
-  const Reference reference = make_total_reference(surface, options);
+  const ReferenceValues reference = make_total_reference(surface, options);
   options.seed += 1;
   options.field_rays *= 2;
-  const Reference other = make_total_reference(surface, options);
+  const ReferenceValues other = make_total_reference(surface, options);
   std::printf("\nreference of totals, %s, %d: RMSE %.6f from one of other rays, and twice as many\n",
               map.c_str(), kSize, rmse(reference.values, other.values));
 }
@@ -131,7 +131,7 @@ void race_total(Tables& tables, const std::string& map, const Surface& surface) 
   options.albedo = kAlbedo;
   std::printf("\n== total irradiance / π at albedo %g, all bounces, %s, %d ==\n", kAlbedo, map.c_str(),
               surface.width());
-  const Reference reference = make_total_reference(surface, options);
+  const ReferenceValues reference = make_total_reference(surface, options);
   std::printf("reference: %d receivers, 65536 rays each, over a field of %d rays per texel\n",
               options.receivers, options.field_rays);
   race(tables, {"total irradiance", map, surface.width()}, total_methods(surface), surface, reference,

@@ -32,7 +32,7 @@ namespace heightlight {
 namespace {
 
 constexpr double kAlbedo = 0.8;
-constexpr WalkOptions kFixedWalk{32, 16, 0.3F};
+constexpr WalkOptions kFixedWalk{.azimuths = 32, .fineness = 16, .peak_share = 0.3F};
 
 /// Of everything beside the links, as they are made and the bounces are summed; measured, and rounded up.
 constexpr std::uint64_t kOtherBytesPerTexel = 76;
@@ -72,30 +72,27 @@ class WalkedTransport : public Transport {
   WalkedTransport(const Surface& surface, double error, std::uint64_t link_memory, Growth& growth) {
     HorizonGoal goal;
     goal.error = error;
+    const Watch unwatched;
     const Stopwatch pilot_watch;
-    HorizonPilot pilot(surface, goal.seed);
-    HorizonPlan plan = plan_sky(pilot, goal);
+    HorizonPilot pilot(surface, goal.seed, unwatched);
+    HorizonPlan plan{.sky = plan_sky(pilot, goal)};
     growth.pilot = pilot_watch.elapsed();
     const Stopwatch sky_watch;
     mips_ = build_height_mips(surface);
-    HorizonSky sky = walk_horizon_sky(surface, mips_, plan.sky, true, {{}, {}, plan.sky_full_from});
+    HorizonSky sky = walk_horizon_sky(surface, mips_, plan.sky);
     growth.sky = sky_watch.elapsed();
     ambient_occlusion = std::move(sky.ambient_occlusion);
     sky_view_factor = std::move(sky.sky_view_factor);
-    direct = Eigen::Map<const Eigen::VectorXf>(sky_view_factor.values.data(),
-                                               static_cast<Eigen::Index>(sky_view_factor.size()))
-                 .cast<double>();
+    direct.assign(sky_view_factor.values.begin(), sky_view_factor.values.end());
     const Stopwatch link_watch;
-    HorizonOptions options;
-    options.memory_limit = link_memory;
-    light_ = plan_links(pilot, mips_, direct, goal, options, plan);
+    light_ = plan_links(pilot, mips_, direct, goal, {.memory = link_memory}, plan);
     growth.links = link_watch.elapsed();
-    growth.sky_azimuths = plan.sky.azimuths;
-    growth.sky_fineness = plan.sky.fineness;
-    growth.lattice_stride = plan.lattice_stride;
-    growth.own_share = plan.own_share;
-    growth.link_azimuths = plan.links.azimuths;
-    growth.link_fineness = plan.links.fineness;
+    growth.sky_azimuths = plan.sky.walk.azimuths;
+    growth.sky_fineness = plan.sky.walk.fineness;
+    growth.lattice_stride = plan.links.lattice_stride;
+    growth.own_share = plan.links.own_share;
+    growth.link_azimuths = plan.links.walk.azimuths;
+    growth.link_fineness = plan.links.walk.fineness;
     growth.link_bytes = static_cast<double>(bytes());
     growth.kept_share = light_->kept_share();
   }
@@ -133,7 +130,7 @@ Growth measure(const Options& options, const std::string& map, int size) {
   Growth growth;
   {
     const HeightMips mips = build_height_mips(surface);
-    growth.fixed_walk = least_cost([&] { walk_horizon_sky(surface, mips, kFixedWalk, true); });
+    growth.fixed_walk = least_cost([&] { walk_horizon_sky(surface, mips, {.walk = kFixedWalk}); });
   }
   const WalkedTransport transport(surface, options.error, link_memory(options, surface), growth);
   constexpr double kBounceShare = 0.2;  // of the error, that ending the bounces may take
@@ -142,8 +139,8 @@ Growth measure(const Options& options, const std::string& map, int size) {
   growth.totals = watch.elapsed();
   growth.bounces = total.bounces;
   growth.peak_bytes = peak_memory();
-  const TexelVector albedo = TexelVector::Constant(total.totals[0].size(), kAlbedo);
-  growth.check = check_by_exact_walks(surface, transport, total.totals[0], albedo, 1);
+  growth.check =
+      check_by_exact_walks(surface, transport.direct, {{.total = total.totals[0], .albedo = kAlbedo}}, 1)[0];
   return growth;
 }
 

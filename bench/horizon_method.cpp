@@ -13,9 +13,8 @@ namespace {
 
 constexpr std::uint64_t kSeed = 1;  // of the pilot's receivers, which are not the reference's
 
-Map walk_sky(const Surface& surface, const WalkOptions& options, double full_from) {
-  return walk_horizon_sky(surface, build_height_mips(surface), options, true, {{}, {}, full_from})
-      .sky_view_factor;
+Map walk_sky(const Surface& surface, const SkyPlan& plan) {
+  return walk_horizon_sky(surface, build_height_mips(surface), plan).sky_view_factor;
 }
 
 /// A walk whose azimuths and fineness are given; every other azimuth where 1 − A is less than `full_from`.
@@ -26,7 +25,7 @@ Method walk_method(const Surface& surface, int fineness, double full_from) {
   method.settings = {4, 8, 12, 16, 24, 32, 48, 64, 96, 128};
   method.granularity = 4;
   method.run_map = [&surface, fineness, full_from](int azimuths) {
-    return walk_sky(surface, {azimuths, fineness}, full_from);
+    return walk_sky(surface, {.walk = {.azimuths = azimuths, .fineness = fineness}, .full_from = full_from});
   };
   return method;
 }
@@ -46,9 +45,9 @@ Method planned_sky_method(const Surface& surface) {
   method.run_map = [&surface](int inverse) {
     HorizonGoal goal;
     goal.error = 1.0 / inverse;
-    HorizonPilot pilot(surface, kSeed);
-    const HorizonPlan plan = plan_sky(pilot, goal);
-    return walk_sky(surface, plan.sky, plan.sky_full_from);
+    const Watch unwatched;
+    HorizonPilot pilot(surface, kSeed, unwatched);
+    return walk_sky(surface, plan_sky(pilot, goal));
   };
   return method;
 }

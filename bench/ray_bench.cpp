@@ -24,7 +24,7 @@ struct Scene {
   EmbreeMesh mesh;
 
   explicit Scene(Heightmap map)
-      : surface(build_surface(std::move(map))), caster(surface, {kRays, 1}), mesh(surface) {}
+      : surface(build_surface(std::move(map))), caster(surface, {.rays = kRays, .seed = 1}), mesh(surface) {}
 
   using Aim = RayBundle (RayCaster::*)(int, int, const LatticeTurn&, RayWorkspace&) const;
 

@@ -28,7 +28,9 @@ Method ray_sky_method(const Surface& surface) {
   method.name = "our rays";
   method.parameter = "rays";
   method.settings = geometric_settings(16, 16384);
-  method.set_up = [caster, &surface](int rays) { caster->emplace(surface, RayOptions{rays, 1}); };
+  method.set_up = [caster, &surface](int rays) {
+    caster->emplace(surface, RayOptions{.rays = rays, .seed = 1});
+  };
   method.run_receivers = [caster](int, const Receivers& receivers) { return trace_sky(**caster, receivers); };
   return method;
 }
@@ -40,10 +42,8 @@ Method ray_total_method(const Surface& surface, double albedo) {
   method.settings = geometric_settings(16, 2048);
   method.is_baseline = true;
   method.run_map = [&surface, albedo](int rays) {
-    FormFactorOptions options;
-    options.rays = {rays, 1};
-    const FormFactors links = build_form_factors(surface, options);
-    const TexelVector albedos = TexelVector::Constant(links.direct.size(), albedo);
+    const FormFactors links = build_form_factors(surface, {.rays = rays, .seed = 1}, {});
+    const TexelVector albedos(links.direct.size(), albedo);
     return to_map(solve_equilibrium(links, links.direct, albedos, links.direct).irradiance, surface);
   };
   return method;

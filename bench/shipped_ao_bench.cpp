@@ -87,7 +87,7 @@ struct Search {
     options.maps = {MaterialMap::ao};
     options.error = error;
     options.reach = reach;
-    return find_material(surface, options, "the map").sky.sky_view_factor;
+    return find_material(surface, options).results.sky_view_factor;
   }
   double score(double relief, const std::optional<Reach>& reach) const {
     return correlation(ranks_of(bake(relief, reach).values), shipped);
@@ -197,7 +197,7 @@ void judge(const std::filesystem::path& folder, const ShippedMaterial& material,
   const Search search{unit, ranks_of(shipped), options.error};
   for (const double share : {0.0, 0.1, 0.02}) {
     const std::optional<Reach> reach =
-        share > 0 ? std::optional<Reach>{{share, Falloff::linear}} : std::nullopt;
+        share > 0 ? std::optional<Reach>{{.distance = share, .falloff = Falloff::linear}} : std::nullopt;
     double score = 0;
     const double relief = best_relief(search, reach, score);
     std::printf("%-17s %-10s %8.4f %8.3f\n", material.name,

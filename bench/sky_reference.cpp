@@ -8,10 +8,10 @@ SkyReference make_sky_reference(const Surface& surface, int count) {
   // Neither seed is that of a method under test, so that errors do not cancel.
   constexpr std::uint64_t kSeeds[] = {101, 102};
   SkyReference result;
-  Reference& reference = result.reference;
+  ReferenceValues& reference = result.reference;
   reference.receivers = pick_receivers(surface, count);
   const auto run = [&](std::uint64_t seed) {
-    return trace_sky(RayCaster(surface, {65536, seed}), reference.receivers);
+    return trace_sky(RayCaster(surface, {.rays = 65536, .seed = seed}), reference.receivers);
   };
   const std::vector<float> one = run(kSeeds[0]);
   const std::vector<float> other = run(kSeeds[1]);

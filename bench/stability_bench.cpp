@@ -32,7 +32,7 @@ struct Way {
 std::vector<Way> ways() {
   return {{"rays",
            [](const Surface& surface) {
-             return std::make_unique<FormFactors>(build_form_factors(surface, {{1024, 1}}));
+             return std::make_unique<FormFactors>(build_form_factors(surface, {.rays = 1024, .seed = 1}, {}));
            }},
           {"exact slices",
            [](const Surface& surface) {
@@ -74,13 +74,12 @@ struct Finding {
 };
 
 double energy_error(const Surface& surface, const Transport& transport) {
-  const BounceSeries series = bounce(
-      transport, surface, 20, {}, [](int, const TexelVector&) {}, true);
-  const TexelVector total = series.sum + solve_tail(transport, series, 1).irradiance;
+  const BounceSeries series = bounce(transport, surface, 20, {}, [](int, const TexelVector&) {});
+  const TexelVector tail = solve_tail(transport, series, 1).irradiance;
   double largest = 0;
-  for (Eigen::Index i = 0; i < total.size(); ++i) {
-    if (std::isnan(surface.map.height.values[static_cast<std::size_t>(i)])) continue;
-    largest = std::max(largest, std::fabs(total[i] - 1));
+  for (std::size_t i = 0; i < tail.size(); ++i) {
+    if (std::isnan(surface.map.height.values[i])) continue;
+    largest = std::max(largest, std::fabs(series.sum[i] + tail[i] - 1));
   }
   return largest;
 }
@@ -92,7 +91,7 @@ Finding try_way(const Way& way, const Surface& surface, const Answer& answer) {
   finding.core_seconds = watch.elapsed().core;
   double squares = 0;
   for (std::size_t i = 0; i < answer.texels.size(); ++i) {
-    const double error = transport->direct[static_cast<Eigen::Index>(answer.texels[i])] - answer.values[i];
+    const double error = transport->direct[answer.texels[i]] - answer.values[i];
     squares += error * error;
     finding.largest = std::max(finding.largest, std::fabs(error));
   }

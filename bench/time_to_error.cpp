@@ -21,7 +21,7 @@ std::vector<float> values_at(const Method& method, int setting, const Receivers&
   return values;
 }
 
-double measure_error(const Method& method, int setting, const Reference& reference) {
+double measure_error(const Method& method, int setting, const ReferenceValues& reference) {
   set_up(method, setting);
   return rmse(values_at(method, setting, reference.receivers), reference.values);
 }
@@ -60,7 +60,7 @@ struct Rung {
 };
 
 /// Tries settings, cheapest first, until one reaches the target.
-std::vector<Rung> climb(const Method& method, const Reference& reference, double target) {
+std::vector<Rung> climb(const Method& method, const ReferenceValues& reference, double target) {
   std::vector<Rung> rungs;
   for (const int setting : method.settings) {
     rungs.push_back({setting, measure_error(method, setting, reference)});
@@ -76,7 +76,7 @@ int round_up(double setting, int granularity) {
 /// The cheapest rung that reaches the target, between those climbed too: from where a power law through the
 /// last above the target and the first below meets it, upwards until the error measured does. The last rung
 /// where none reaches it.
-Rung cheapest_rung(const Method& method, const Reference& reference, const std::vector<Rung>& rungs,
+Rung cheapest_rung(const Method& method, const ReferenceValues& reference, const std::vector<Rung>& rungs,
                    double target) {
   const auto below =
       std::find_if(rungs.begin(), rungs.end(), [target](const Rung& rung) { return rung.rmse <= target; });
@@ -96,7 +96,7 @@ Rung cheapest_rung(const Method& method, const Reference& reference, const std::
 
 /// The setting that asks for the target, or the first that asks for less and reaches it. The last tried where
 /// none does.
-Rung asked_rung(const Method& method, const Reference& reference, double target) {
+Rung asked_rung(const Method& method, const ReferenceValues& reference, double target) {
   constexpr double kStep = 1.1;
   double setting = method.setting_for(target);
   for (;; setting *= kStep) {
@@ -107,17 +107,14 @@ Rung asked_rung(const Method& method, const Reference& reference, double target)
 }
 
 Cost one_thread_cost(const TimedRun& run, int setting) {
-  const int threads = thread_count();
-  set_thread_count(1);
-  const Cost cost = run.cost(setting);
-  set_thread_count(threads);
-  return cost;
+  const ThreadScope one_thread(1);
+  return run.cost(setting);
 }
 
 }  // namespace
 
 std::vector<TimeToError> time_to_error(const Method& method, const Surface& surface,
-                                       const Reference& reference, const std::vector<double>& targets) {
+                                       const ReferenceValues& reference, const std::vector<double>& targets) {
   std::vector<Rung> rungs;
   if (!method.setting_for) rungs = climb(method, reference, targets.back());
   const TimedRun run(method, surface);
@@ -143,8 +140,8 @@ std::vector<TimeToError> time_to_error(const Method& method, const Surface& surf
   return results;
 }
 
-std::vector<CurvePoint> error_curve(const Method& method, const Surface& surface, const Reference& reference,
-                                    double least_error) {
+std::vector<CurvePoint> error_curve(const Method& method, const Surface& surface,
+                                    const ReferenceValues& reference, double least_error) {
   constexpr int kCurveRows = 8;  // a picture shows no difference
   const TimedRun run(method, surface, kCurveRows);
   std::vector<CurvePoint> curve;

@@ -8,7 +8,7 @@
 namespace heightlight {
 
 /// What every method is measured against: values at some receivers.
-struct Reference {
+struct ReferenceValues {
   Receivers receivers;
   std::vector<float> values;
 };
@@ -33,7 +33,7 @@ struct TimeToError {
 /// Finds, for each of the `targets` (falling), the cheapest setting that reaches it, and what it costs. A
 /// method that is told an error is told the target first; where it misses, it is asked for ever less.
 std::vector<TimeToError> time_to_error(const Method& method, const Surface& surface,
-                                       const Reference& reference, const std::vector<double>& targets);
+                                       const ReferenceValues& reference, const std::vector<double>& targets);
 
 /// A method with one of its settings.
 struct CurvePoint {
@@ -49,7 +49,7 @@ struct CurvePoint {
 };
 
 /// All of the method's settings, up to the first that comes closer to the reference than `least_error`.
-std::vector<CurvePoint> error_curve(const Method& method, const Surface& surface, const Reference& reference,
-                                    double least_error);
+std::vector<CurvePoint> error_curve(const Method& method, const Surface& surface,
+                                    const ReferenceValues& reference, double least_error);
 
 }  // namespace heightlight

@@ -9,17 +9,16 @@ namespace heightlight {
 namespace {
 
 TexelVector solve_field(const Surface& surface, const TotalReferenceOptions& options) {
-  FormFactorOptions form_factor_options;
-  form_factor_options.rays = {options.field_rays, options.seed};
-  const FormFactors links = build_form_factors(surface, form_factor_options);
-  const TexelVector albedo = TexelVector::Constant(links.direct.size(), options.albedo);
+  const FormFactors links =
+      build_form_factors(surface, {.rays = options.field_rays, .seed = options.seed}, {});
+  const TexelVector albedo(links.direct.size(), options.albedo);
   return solve_equilibrium(links, links.direct, albedo, links.direct).irradiance;
 }
 
 /// Linear on the place's triangle, unrounded: what links do with bytes is part of what is judged. The map is
 /// open, so that no cell wraps.
-double field_at(const TexelVector& field, int width, const SurfacePoint& place) {
-  const auto corner = static_cast<Eigen::Index>(place.cell);
+double field_at(const TexelVector& field, std::size_t width, const SurfacePoint& place) {
+  const std::size_t corner = place.cell;
   const double both = std::min(place.across, place.down);
   const double upper_left = field[corner];
   return upper_left + (static_cast<double>(place.across) - both) * (field[corner + 1] - upper_left) +
@@ -29,10 +28,10 @@ double field_at(const TexelVector& field, int width, const SurfacePoint& place) 
 
 }  // namespace
 
-Reference make_total_reference(const Surface& surface, const TotalReferenceOptions& options) {
+ReferenceValues make_total_reference(const Surface& surface, const TotalReferenceOptions& options) {
   const TexelVector field = solve_field(surface, options);
-  const RayCaster caster(surface, {65536, scramble(options.seed)});
-  Reference reference;
+  const RayCaster caster(surface, {.rays = 65536, .seed = scramble(options.seed)});
+  ReferenceValues reference;
   reference.receivers = pick_receivers(surface, options.receivers);
   reference.values.resize(reference.receivers.size());
   for_runs(reference.receivers.size(), [&](std::size_t begin, std::size_t end) {

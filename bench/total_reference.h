@@ -16,6 +16,6 @@ struct TotalReferenceOptions {
 };
 
 /// Total irradiance / π: A + ρ Σ weight · E(place seen).
-Reference make_total_reference(const Surface& surface, const TotalReferenceOptions& options);
+ReferenceValues make_total_reference(const Surface& surface, const TotalReferenceOptions& options);
 
 }  // namespace heightlight

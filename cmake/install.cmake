@@ -1,1 +1,34 @@
-# later
+# What `cmake --install` puts where: libraries with their headers, found by find_package(heightlight) and by pkg-config;
+# the program; the licence.
+include(CMakePackageConfigHelpers)
+
+set(HEIGHTLIGHT_CONFIG_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/heightlight)
+set(HEIGHTLIGHT_CORE_HEADERS
+    closed_forms.h curves.h error.h evidence.h forms.h heightmap.h image.h screenspace.h solve.h surface.h synth.h
+    transport.h visibility.h watch.h)
+list(TRANSFORM HEIGHTLIGHT_CORE_HEADERS PREPEND include/heightlight/)
+
+install(TARGETS heightlight_core EXPORT heightlight ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(FILES ${HEIGHTLIGHT_CORE_HEADERS} ${PROJECT_BINARY_DIR}/include/heightlight/version.h
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/heightlight)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+set(pkg_config_files core)
+if(HEIGHTLIGHT_FILES)
+  install(TARGETS heightlight_files EXPORT heightlight ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(FILES include/heightlight/files.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/heightlight)
+  list(APPEND pkg_config_files files)
+endif()
+if(HEIGHTLIGHT_CLI)
+  install(TARGETS heightlight_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+
+install(EXPORT heightlight NAMESPACE heightlight:: FILE heightlightTargets.cmake DESTINATION ${HEIGHTLIGHT_CONFIG_DIR})
+configure_package_config_file(cmake/heightlightConfig.cmake.in ${PROJECT_BINARY_DIR}/heightlightConfig.cmake
+                              INSTALL_DESTINATION ${HEIGHTLIGHT_CONFIG_DIR})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/heightlightConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/heightlightConfig.cmake ${PROJECT_BINARY_DIR}/heightlightConfigVersion.cmake
+        DESTINATION ${HEIGHTLIGHT_CONFIG_DIR})
+foreach(name ${pkg_config_files})
+  configure_file(cmake/heightlight-${name}.pc.in heightlight-${name}.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/heightlight-${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+endforeach()

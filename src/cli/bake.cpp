@@ -18,6 +18,7 @@
 #include "cli/name_errors.h"
 #include "cli/terminal_watch.h"
 #include "cli/user_message.h"
+#include "files/staged_output.h"
 #include "heightlight/error.h"
 
 namespace heightlight {
@@ -142,6 +143,23 @@ void parse_options(BakeCommand& command) {
   check_bake_options(any_albedo);
 }
 
+/// All files that a batch reads. An albedo that is a number names no file.
+std::vector<std::filesystem::path> input_files(const BakeCommand& command, const std::vector<BakeInput>& inputs) {
+  std::vector<std::filesystem::path> files{command.albedo};
+  for (const BakeInput& input : inputs) files.push_back(input.path);
+  return files;
+}
+
+/// Before anything is baked: no map's files replace any map.
+void check_batch(const BakeCommand& command, const std::vector<BakeInput>& inputs) {
+  const std::vector<std::filesystem::path> files = input_files(command, inputs);
+  for (const BakeInput& input : inputs) {
+    for (const std::string& name : baked_files(input.name, command.options)) {
+      check_inputs_stay(files, command.folder / name);
+    }
+  }
+}
+
 /// Of one map. Returns its warnings.
 std::vector<std::string> bake_file(const BakeCommand& command, const BakeInput& input, bool quiet) {
   BakeOptions options = command.options;
@@ -198,6 +216,7 @@ void bake(BakeCommand& command) {
   apply_run_options(command.run);
   parse_options(command);
   const std::vector<BakeInput> inputs = list_bake_inputs(command.inputs);
+  check_batch(command, inputs);
   const bool only_one = inputs.size() == 1;
   Tally tally;
   {

@@ -30,11 +30,17 @@ LoadedHeightmap load_input(const SimulateOptions& options) {
   return loaded;
 }
 
-/// What the solution may take: the limit less what the sink, the totals as maps and their pictures hold.
+/// What the sink, the albedo and the totals as maps hold beside the solution.
+std::uint64_t bytes_held(const Surface& surface, const Albedo& albedo) {
+  const std::uint64_t per_texel = SimulationSink::bytes_per_texel() +
+                                  albedo.channels() * sizeof(Map::value_type) +
+                                  albedo.varying.size() * sizeof(TexelVector::value_type);
+  return surface.map.height.size() * per_texel;
+}
+
+/// What the solution may take: the limit less that.
 std::uint64_t memory_to_solve(const SimulateOptions& options, const Surface& surface, const Albedo& albedo) {
-  const std::uint64_t per_texel =
-      SimulationSink::bytes_per_texel() + albedo.channels() * sizeof(Map::value_type);
-  const std::uint64_t own = surface.map.height.size() * per_texel;
+  const std::uint64_t own = bytes_held(surface, albedo);
   if (own < options.run.memory) return options.run.memory - own;
   throw MemoryError("simulating " + std::to_string(surface.width()) + " × " +
                     std::to_string(surface.height()) + " texels needs more than " + format_byte_size(own) +
@@ -106,6 +112,7 @@ Simulation simulate_map(const SimulateOptions& options, const Watch& watch) {
     return solve(surface, request);
   });
   simulation.evidence = results.evidence;
+  simulation.evidence.estimated_bytes += bytes_held(surface, albedo);
   lap.lap();
   write_curves(folder, options, surface, sink.curves(), watch);
   seconds.curves = results.evidence.seconds.sink + lap.lap();

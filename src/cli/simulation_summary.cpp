@@ -5,18 +5,16 @@
 
 namespace heightlight {
 
-using Json = nlohmann::ordered_json;
-
 void write_summary(const std::filesystem::path& path, const SimulateOptions& options, const Surface& surface,
                    const Albedo& albedo, const Simulation& simulation) {
   const Evidence& evidence = simulation.evidence;
-  Json summary;
+  nlohmann::ordered_json summary;
   summary["version"] = HEIGHTLIGHT_VERSION;
   summary["map"] = describe_map(options.map.path, simulation.facts.sha256, surface);
   summary.update(describe_evidence(evidence));
   summary["bounces"] = options.bounces;
-  summary["albedo"] = albedo.varying.empty() ? Json(albedo.constant) : Json(options.albedo);
-  Json& times = summary["time_s"] = describe_times(evidence.seconds);
+  summary["albedo"] = albedo.varying.empty() ? nlohmann::ordered_json(albedo.constant) : nlohmann::ordered_json(options.albedo);
+  nlohmann::ordered_json& times = summary["time_s"] = describe_times(evidence.seconds);
   times["load"] = simulation.seconds.load;
   times["curves"] = simulation.seconds.curves;
   times["output"] = simulation.seconds.output;

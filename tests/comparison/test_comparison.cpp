@@ -40,8 +40,8 @@ TEST_CASE("the 99th percentile leaves the worst hundredth out", "[comparison]") 
 }
 
 TEST_CASE("angles between unit vectors are in degrees, small ones too", "[comparison]") {
-  Image<Eigen::Vector3f> a(2, 1, Eigen::Vector3f::UnitZ());
-  Image<Eigen::Vector3f> b(2, 1, Eigen::Vector3f::UnitX());
+  Image<Vector3> a(2, 1, Eigen::Vector3f::UnitZ());
+  Image<Vector3> b(2, 1, Eigen::Vector3f::UnitX());
   b(0, 1) = Eigen::Vector3f(1e-4F, 0, 1).normalized();
   const Map angles = angles_deg(a, b);
   CHECK(angles(0, 0) == Approx(90));

@@ -5,6 +5,7 @@
 
 #include "base/hash.h"
 #include "base/parallel.h"
+#include "base/texel_algebra.h"
 #include "heightlight/curves.h"
 #include "heightlight/error.h"
 
@@ -23,10 +24,8 @@ Map random_map(int side, std::uint64_t seed) {
 }
 
 TexelVector random_irradiance(const Map& map, std::uint64_t seed) {
-  TexelVector values(static_cast<Eigen::Index>(map.size()));
-  for (Eigen::Index i = 0; i < values.size(); ++i) {
-    values[i] = unit_real(hash_combine(seed, static_cast<std::uint64_t>(i)));
-  }
+  TexelVector values(map.size());
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = unit_real(hash_combine(seed, i));
   return values;
 }
 
@@ -75,7 +74,7 @@ void check_same(const BounceStatistics& got, const std::vector<double>& values) 
 BounceStatistics statistics_of(const std::vector<double>& values) {
   const int count = static_cast<int>(values.size());
   CurveBuilder builder(Map(count, 1, 0.5F), AoKind::ambient_occlusion, 1);
-  builder.add(Eigen::Map<const TexelVector>(values.data(), count));
+  builder.add(values);
   return builder.curves().filled.at(0).bounces.at(0);
 }
 
@@ -110,7 +109,7 @@ TEST_CASE("Bins hold the texels between their edges, and their statistics are th
   CurveBuilder builder(ao, AoKind::sky_view_factor, bins);
   builder.add(first);
   builder.add(second);
-  builder.add_tail(first + second);
+  builder.add_tail(to_texels(as_eigen(first) + as_eigen(second)));
   const BounceCurves& curves = builder.curves();
   CHECK(curves.kind == AoKind::sky_view_factor);
   CHECK(curves.bins == bins);
@@ -122,7 +121,7 @@ TEST_CASE("Bins hold the texels between their edges, and their statistics are th
     for (std::size_t i = 0; i < ao.size(); ++i) {
       const double value = static_cast<double>(ao.values[i]);
       if (value < bin.ao_lo || value >= bin.ao_hi) continue;
-      const auto texel = static_cast<Eigen::Index>(i);
+      const auto texel = i;
       members.push_back(value);
       first_values.push_back(first[texel]);
       second_values.push_back(second[texel]);
@@ -221,7 +220,7 @@ TEST_CASE(
 TEST_CASE("Missing texels are in no bin, and a map of them has none", "[curves]") {
   Map ao(4, 1, 0.5F);
   ao.values[1] = kMissing;
-  TexelVector irradiance = TexelVector::Ones(4);
+  TexelVector irradiance(4, 1);
   irradiance[1] = 1000;
   CurveBuilder builder(ao, AoKind::ambient_occlusion, 10);
   builder.add(irradiance);
@@ -230,10 +229,10 @@ TEST_CASE("Missing texels are in no bin, and a map of them has none", "[curves]"
   CHECK(builder.curves().filled[0].bounces[0].p95 == 1);
 
   Map half(200, 200, 0.5F);  // more than one block of texels, and more than are few
-  TexelVector known = TexelVector::Constant(static_cast<Eigen::Index>(half.size()), 2);
+  TexelVector known(half.size(), 2);
   for (std::size_t i = 0; i < half.size(); i += 2) {
     half.values[i] = kMissing;
-    known[static_cast<Eigen::Index>(i)] = std::nan("");
+    known[i] = std::nan("");
   }
   CurveBuilder of_half(half, AoKind::ambient_occlusion, 10);
   of_half.add(known);
@@ -254,30 +253,27 @@ TEST_CASE("Curves are the same to the last bit for any number of threads", "[cur
   const int bins = GENERATE(10, 100, 1000);  // full ones, and ones with few texels
   const TexelVector irradiance = random_irradiance(ao, 6);
   const auto curves = [&](int threads) {
-    set_thread_count(threads);
+    const ThreadScope scope(threads);
     CurveBuilder builder(ao, AoKind::ambient_occlusion, bins);
     builder.add(irradiance);
-    builder.add_tail(irradiance.cwiseSqrt());
+    builder.add_tail(to_texels(as_eigen(irradiance).cwiseSqrt()));
     return flatten(builder.curves());
   };
   const std::vector<double> one = curves(1);
   CHECK(curves(2) == one);
   CHECK(curves(7) == one);
-  set_thread_count(0);
 }
 
 TEST_CASE("Irradiance in floats gives what the same values give in doubles", "[curves]") {
   const Map ao = random_map(200, 8);
   const int bins = GENERATE(5, 100);  // full ones, and ones with few texels
-  Map map(ao.width, ao.height);
-  const auto texels = static_cast<Eigen::Index>(map.size());
-  const Eigen::VectorXf floats = random_irradiance(ao, 9).cast<float>();
-  std::copy(floats.begin(), floats.end(), map.values.begin());
+  const TexelVector doubles = random_irradiance(ao, 9);
+  const std::vector<float> floats(doubles.begin(), doubles.end());
   CurveBuilder of_floats(ao, AoKind::ambient_occlusion, bins);
   of_floats.add(floats);
-  of_floats.add_tail(Eigen::VectorXf::Map(map.values.data(), texels));
+  of_floats.add_tail(floats);
   CurveBuilder of_doubles(ao, AoKind::ambient_occlusion, bins);
-  of_doubles.add(floats.cast<double>());
+  of_doubles.add(TexelVector(floats.begin(), floats.end()));
   const std::vector<CurveBin>& got = of_floats.curves().filled;
   const std::vector<CurveBin>& expected = of_doubles.curves().filled;
   REQUIRE(got.size() == expected.size());

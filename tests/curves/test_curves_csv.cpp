@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 #include <sstream>
 
-#include "heightlight/curves.h"
+#include "heightlight/files.h"
 #include "heightlight/error.h"
 #include "scratch_folder.h"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "fuzz_input.h"
-#include "heightlight/curves.h"
+#include "heightlight/files.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace heightlight;

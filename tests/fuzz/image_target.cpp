@@ -8,7 +8,7 @@
 #include <cstring>
 
 #include "fuzz_input.h"
-#include "heightlight/heightmap.h"
+#include "heightlight/files.h"
 
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);
 

@@ -53,7 +53,7 @@ void for_receivers(const Surface& surface, Visit&& visit) {
 
 void compare_traversals(const Surface& surface, std::uint64_t seed, std::vector<std::string>& faults) {
   if (surface.cell_columns() == 0 || surface.cell_rows() == 0) return;
-  const RayCaster caster(surface, {61, seed});
+  const RayCaster caster(surface, {.rays = 61, .seed = seed});
   RayWorkspace lanes(caster.rays());
   RayWorkspace twin(caster.rays());
   for_receivers(surface, [&](int row, int column) {
@@ -75,7 +75,7 @@ void compare_traversals(const Surface& surface, std::uint64_t seed, std::vector<
 class SlicesAndRays {
  public:
   SlicesAndRays(const Surface& surface, int azimuths, int rays, std::uint64_t seed)
-      : walker_(surface, azimuths), caster_(surface, {rays, seed}), workspace_(rays) {}
+      : walker_(surface, azimuths), caster_(surface, {.rays = rays, .seed = seed}), workspace_(rays) {}
 
   /// The greater difference of A and of α.
   double difference(int row, int column) {
@@ -123,7 +123,7 @@ double walk_bound(const Surface& surface) {
 
 void compare_sky_walks(const Surface& surface, LargestDifferences& largest,
                        std::vector<std::string>& faults) {
-  const WalkOptions options{6, 8, 0.3F};
+  const WalkOptions options{.azimuths = 6, .fineness = 8, .peak_share = 0.3F};
   const WalkedSky lanes = walk_sky_with(look_far, walk_sky, surface, options);
   const WalkedSky twin = walk_sky_with(look_far_scalar, walk_sky_scalar, surface, options);
   for (const auto& [name, a, b] :
@@ -142,9 +142,8 @@ void compare_sky_walks(const Surface& surface, LargestDifferences& largest,
 }
 
 TexelVector random_field(const Surface& surface, std::uint64_t seed) {
-  TexelVector field(static_cast<Eigen::Index>(surface.map.height.size()));
-  for (Eigen::Index i = 0; i < field.size(); ++i)
-    field[i] = unit_real(hash_combine(seed, static_cast<std::uint64_t>(i)));
+  TexelVector field(surface.map.height.size());
+  for (std::size_t i = 0; i < field.size(); ++i) field[i] = unit_real(hash_combine(seed, i));
   return field;
 }
 
@@ -174,14 +173,15 @@ Outcome outcome_of(const Transport& transport, const TexelVector& field) {
 template <class Build>
 void compare_threads(const char* name, const TexelVector& field, Build&& build, LargestDifferences& largest,
                      std::vector<std::string>& faults) {
-  set_thread_count(1);
+  const ThreadScope one_thread(1);
   const auto one = build();
   const Outcome alone = outcome_of(*one, field);
-  set_thread_count(3);
-  const auto other = build();
-  if (!same(alone, outcome_of(*other, field)))
-    faults.push_back(std::string(name) + " depend on the number of threads");
-  set_thread_count(1);
+  {
+    const ThreadScope three_threads(3);
+    const auto other = build();
+    if (!same(alone, outcome_of(*other, field)))
+      faults.push_back(std::string(name) + " depend on the number of threads");
+  }
   const double row_sum = row_sum_error(*one);
   largest.row_sum = std::max(largest.row_sum, row_sum);
   if (!(row_sum <= kRowSumBound))
@@ -192,20 +192,23 @@ void compare_threads(const char* name, const TexelVector& field, Build&& build, 
 void compare_operators(const Surface& surface, std::uint64_t seed, LargestDifferences& largest,
                        std::vector<std::string>& faults) {
   const TexelVector field = random_field(surface, seed);
-  FormFactorOptions options;
-  options.rays = {64, seed};
+  const RayOptions rays{.rays = 64, .seed = seed};
   compare_threads(
-      "rays", field, [&] { return std::make_unique<FormFactors>(build_form_factors(surface, options)); },
+      "rays", field, [&] { return std::make_unique<FormFactors>(build_form_factors(surface, rays, {})); },
       largest, faults);
   compare_threads(
       "exact slices", field,
-      [&] { return std::make_unique<FormFactors>(build_exact_form_factors(surface, 4, options)); }, largest,
+      [&] { return std::make_unique<FormFactors>(build_exact_form_factors(surface, 4, {})); }, largest,
       faults);
-  const HorizonPlan plan{{16, 8, 0.3F}, {8, 8, 0.3F}, 1, 0, 0};
+  // All azimuths everywhere, and links of its own for every receiver.
+  const HorizonPlan plan{
+      .sky = {.walk = {.azimuths = 16, .fineness = 8, .peak_share = 0.3F}, .full_from = 0},
+      .links = {
+          .walk = {.azimuths = 8, .fineness = 8, .peak_share = 0.3F}, .lattice_stride = 1, .own_from = 0}};
   compare_threads(
       "horizon walks", field, [&] { return build_horizon_transport(surface, plan, {}); }, largest, faults);
   const auto kept = build_horizon_transport(surface, plan, {});
-  const auto walked = build_horizon_transport(surface, plan, {0});
+  const auto walked = build_horizon_transport(surface, plan, {.memory = 0});
   if (!same(outcome_of(*kept, field), outcome_of(*walked, field)))
     faults.push_back("links kept and links walked again gather otherwise");
 }
@@ -214,6 +217,7 @@ void compare_operators(const Surface& surface, std::uint64_t seed, LargestDiffer
 
 std::vector<std::string> compare_solvers(const Surface& surface, std::uint64_t seed,
                                          LargestDifferences& largest) {
+  const ThreadScope one_thread(1);  // on maps so small more of them gain nothing
   std::vector<std::string> faults;
   compare_traversals(surface, seed, faults);
   compare_slices_and_rays(surface, seed, largest, faults);

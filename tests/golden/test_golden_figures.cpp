@@ -46,8 +46,8 @@ std::vector<GoldenFigure> read_figures() {
 /// RMS over the texels of what `value_of` says less the simulation's.
 double rms_error(const TexelVector& truth, const std::function<double(std::size_t)>& value_of) {
   double squares = 0;
-  for (Eigen::Index i = 0; i < truth.size(); ++i) {
-    const double error = value_of(static_cast<std::size_t>(i)) - truth[i];
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const double error = value_of(i) - truth[i];
     squares += error * error;
   }
   return std::sqrt(squares / static_cast<double>(truth.size()));
@@ -58,9 +58,9 @@ std::vector<double> measure(const char* shape) {
   const Surface surface = build_surface(make_synth_map(shape, 256, Boundary::tile, 0.1));
   const PlannedTransport planned = plan_horizon_transport(surface, {}, {});
   const Transport& transport = *planned.transport;
-  const TexelVector total = solve_totals(transport, {kAlbedo}, 1e-4, true).totals[0];
-  const TexelVector albedo = TexelVector::Constant(total.size(), kAlbedo);
-  const HorizonCheck check = check_by_exact_walks(surface, transport, total, albedo, 1);
+  const TexelVector total = solve_totals(transport, {kAlbedo}, 1e-4).totals[0];
+  const HorizonCheck check =
+      check_by_exact_walks(surface, transport.direct, {{.total = total, .albedo = kAlbedo}}, 1)[0];
   GtaoOptions preset;
   preset.reach = 0.1;
   const ScreenSpaceView view = gtao(make_depth_buffer(surface), preset);

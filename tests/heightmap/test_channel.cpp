@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "heightlight/error.h"
-#include "heightlight/heightmap.h"
+#include "heightlight/files.h"
 #include "scratch_folder.h"
 #include "write_samples.h"
 

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "files/level_count.h"
-#include "heightlight/heightmap.h"
+#include "heightlight/files.h"
 
 using namespace heightlight;
 

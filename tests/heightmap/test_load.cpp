@@ -4,7 +4,7 @@
 
 #include "files/image_file.h"
 #include "heightlight/error.h"
-#include "heightlight/heightmap.h"
+#include "heightlight/files.h"
 #include "scratch_folder.h"
 #include "write_samples.h"
 

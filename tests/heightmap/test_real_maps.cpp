@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "heightlight/error.h"
-#include "heightlight/heightmap.h"
+#include "heightlight/files.h"
 #include "shared_data.h"
 
 using namespace heightlight;

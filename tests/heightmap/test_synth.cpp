@@ -26,12 +26,6 @@ std::uint64_t fingerprint(const Image<float>& image) {
 
 double coordinate(int index, int size) { return (index + 0.5) / size; }
 
-/// Restores the number of threads at the end of a test.
-struct ThreadCount {
-  int before = thread_count();
-  ~ThreadCount() { set_thread_count(before); }
-};
-
 struct Steps {
   double across;
   double largest_inside;
@@ -80,7 +74,6 @@ TEST_CASE("Every shape keeps every bit", "[synth]") {
 }
 
 TEST_CASE("A shape does not depend on the number of threads", "[synth]") {
-  const ThreadCount restore;
   for (const SynthShape& shape : synth_shapes()) {
     CAPTURE(shape.name);
     set_thread_count(1);

@@ -5,6 +5,7 @@
 #include "fit/bootstrap.h"
 #include "fit/least_squares.h"
 #include "heightlight/error.h"
+#include "heightlight/files.h"
 #include "scratch_folder.h"
 
 namespace heightlight {

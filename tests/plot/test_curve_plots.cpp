@@ -20,11 +20,11 @@ BounceCurves make_curves(int count, float from, float to, int bounces, int bins 
   for (int i = 0; i < count; ++i)
     ao(0, i) = from + (to - from) * static_cast<float>(i) / static_cast<float>(count);
   CurveBuilder builder(ao, AoKind::ambient_occlusion, bins);
-  TexelVector irradiance = TexelVector::Ones(count);
-  for (int i = 0; i < count; ++i) irradiance[i] -= static_cast<double>(ao(0, i));
+  TexelVector irradiance(static_cast<std::size_t>(count), 1);
+  for (int i = 0; i < count; ++i) irradiance[static_cast<std::size_t>(i)] -= static_cast<double>(ao(0, i));
   for (int b = 0; b <= bounces; ++b) {
     builder.add(irradiance);
-    for (int i = 0; i < count; ++i) irradiance[i] *= static_cast<double>(ao(0, i));
+    for (int i = 0; i < count; ++i) irradiance[static_cast<std::size_t>(i)] *= static_cast<double>(ao(0, i));
   }
   builder.add_tail(irradiance);
   return builder.curves();

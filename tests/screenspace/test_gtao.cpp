@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "base/texel_algebra.h"
 #include "heightlight/error.h"
 #include "heightlight/screenspace.h"
 #include "published_gtao.h"
@@ -64,8 +65,14 @@ TEST_CASE("GTAO's lanes and its scalar twin agree on every instruction set", "[s
   const bool attenuated = GENERATE(false, true);
   const Surface surface = build_surface(make_rough_map(width, height, boundary, 0.1, 0.1, 3));
   const DepthBuffer depth = make_depth_buffer(surface);
-  const SliceTables tables = make_slice_tables(
-      depth, {3, 7, StepDistribution::stratified, sampling, DirectionNoise::temporal, 0.3}, 2);
+  const SliceTables tables = make_slice_tables(depth,
+                                               {.slices = 3,
+                                                .steps = 7,
+                                                .distribution = StepDistribution::stratified,
+                                                .sampling = sampling,
+                                                .noise = DirectionNoise::temporal,
+                                                .reach = 0.3},
+                                               2);
   GtaoPass pass{depth, tables};
   if (attenuated) {
     pass.attenuated = true;
@@ -103,7 +110,7 @@ TEST_CASE("GTAO is what algorithm 1 says, line by line", "[screenspace]") {
   constexpr int kSteps = 6;
   constexpr double kReach = 0.4;
   const Surface surface = build_surface(make_rough_map(24, 20, Boundary::tile, 0.3, 0, 5));
-  GtaoOptions options{kSlices, kSteps};
+  GtaoOptions options{.slices = kSlices, .steps = kSteps};
   options.noise = DirectionNoise::none;
   options.reach = kReach;
   options.bent_normal = true;
@@ -111,7 +118,7 @@ TEST_CASE("GTAO is what algorithm 1 says, line by line", "[screenspace]") {
   const auto wrapped = [](int i, int count) { return ((i % count) + count) % count; };
   for (int row = 0; row < 20; ++row) {
     for (int column = 0; column < 24; ++column) {
-      const Eigen::Vector3d normal = surface.normal(row, column).cast<double>();
+      const Eigen::Vector3d normal = as_eigen(surface.normal(row, column)).cast<double>();
       double visibility = 0;
       Eigen::Vector3d bent = Eigen::Vector3d::Zero();
       for (int slice = 0; slice < kSlices; ++slice) {
@@ -141,7 +148,8 @@ TEST_CASE("GTAO is what algorithm 1 says, line by line", "[screenspace]") {
         bent += Eigen::Vector3d(std::cos(azimuth) * part.x(), std::sin(azimuth) * part.x(), part.y());
       }
       REQUIRE(double{view.sky_view_factor(row, column)} == Approx(std::min(visibility, 1.0)).margin(3e-6));
-      REQUIRE((view.bent_normal(row, column).cast<double>() - bent.normalized()).norm() < 2e-5);  // rounding
+      REQUIRE((as_eigen(view.bent_normal(row, column)).cast<double>() - bent.normalized()).norm() <
+              2e-5);  // rounding
     }
   }
 }
@@ -152,7 +160,7 @@ TEST_CASE("a flat plane is open: exactly 1, whatever GTAO's options", "[screensp
   const DirectionNoise noise =
       GENERATE(DirectionNoise::none, DirectionNoise::spatial, DirectionNoise::temporal);
   const Surface surface = build_surface(make_map(33, 18, boundary, [](int, int) { return 0.25; }));
-  GtaoOptions options{2, 5};
+  GtaoOptions options{.slices = 2, .steps = 5};
   options.sampling = sampling;
   options.noise = noise;
   options.falloff = GENERATE(0.0, 0.5);
@@ -162,7 +170,7 @@ TEST_CASE("a flat plane is open: exactly 1, whatever GTAO's options", "[screensp
   const ScreenSpaceView view = gtao(make_depth_buffer(surface), options);
   for (std::size_t i = 0; i < view.sky_view_factor.size(); ++i) {
     REQUIRE(std::fabs(view.sky_view_factor.values[i] - 1) <= 2.4e-7F);  // identity: two roundings of 1
-    REQUIRE((view.bent_normal.values[i] - Eigen::Vector3f::UnitZ()).norm() < 1e-6F);
+    REQUIRE((as_eigen(view.bent_normal.values[i]) - Eigen::Vector3f::UnitZ()).norm() < 1e-6F);
   }
 }
 
@@ -170,7 +178,7 @@ TEST_CASE("a tilted plane is open: 1 once the slices' own sum is divided by", "[
   const double slope = GENERATE(0.5, 2.0);
   const Surface surface = build_surface(make_map(
       40, 40, Boundary::open, [&](int row, int column) { return slope * (column - 0.5 * row) / 40; }));
-  GtaoOptions options{3, 8};
+  GtaoOptions options{.slices = 3, .steps = 8};
   options.noise = DirectionNoise::none;
   options.divide_by_open = true;
   options.sampling = DepthSampling::mesh;
@@ -181,18 +189,19 @@ TEST_CASE("a tilted plane is open: 1 once the slices' own sum is divided by", "[
 TEST_CASE("GTAO tells the same for any number of threads, and for a map moved around its torus",
           "[screenspace]") {
   const Heightmap map = make_rough_map(44, 36, Boundary::tile, 0.2, 0.05, 7);
-  GtaoOptions options{2, 6};
+  GtaoOptions options{.slices = 2, .steps = 6};
   options.distribution = StepDistribution::stratified;
   options.noise = DirectionNoise::temporal;
   options.reach = 0.5;
   const auto run = [&](const Heightmap& heights) {
     return gtao(make_depth_buffer(build_surface(heights)), options).sky_view_factor;
   };
-  set_thread_count(1);
-  const Map one = run(map);
-  set_thread_count(7);
-  CHECK(same(run(map), one));
-  set_thread_count(0);
+  const auto run_on = [&](int threads) {
+    const ThreadScope scope(threads);
+    return run(map);
+  };
+  const Map one = run_on(1);
+  CHECK(same(run_on(7), one));
   Heightmap moved_one = map;
   moved_one.height = one;
   CHECK(same(run(shift_map(map, 8, 12)), shift_map(moved_one, 8, 12).height));  // the noise's period is 4
@@ -204,19 +213,19 @@ TEST_CASE("with slices and steps GTAO converges to the exact walk", "[screenspac
   const Surface surface = build_surface(make_synth_map(shape, 64, boundary, 0.1));
   const DepthBuffer depth = make_depth_buffer(surface);
   Map reference(64, 64);
-  Image<Eigen::Vector3f> bent(64, 64, Eigen::Vector3f::UnitZ());
+  Image<Vector3> bent(64, 64);
   const ExactWalker walker(surface, 512);
   parallel_for(64, [&](std::int64_t row) {
     SliceView view;
     for (int column = 0; column < 64; ++column) {
       walker.view(static_cast<int>(row), column, view);
       reference(static_cast<int>(row), column) = static_cast<float>(view.sky_view_factor);
-      bent(static_cast<int>(row), column) = view.bent_normal.cast<float>();
+      bent(static_cast<int>(row), column) = to_vector3(view.bent_normal.cast<float>());
     }
   });
   double before = 1;
   for (const int slices : {4, 16, 64}) {
-    GtaoOptions options{slices, 16 * slices};
+    GtaoOptions options{.slices = slices, .steps = 16 * slices};
     options.sampling = DepthSampling::mesh;
     options.noise = DirectionNoise::none;
     options.bent_normal = true;
@@ -229,7 +238,7 @@ TEST_CASE("with slices and steps GTAO converges to the exact walk", "[screenspac
     CHECK(error < 1e-3);
     double squares = 0;
     for (std::size_t i = 0; i < bent.size(); ++i) {
-      const double cosine = double{view.bent_normal.values[i].dot(bent.values[i])};
+      const double cosine = double{as_eigen(view.bent_normal.values[i]).dot(as_eigen(bent.values[i]))};
       squares += std::pow(std::acos(std::clamp(cosine, -1.0, 1.0)), 2);
     }
     CHECK(std::sqrt(squares / 4096) * 180 / std::numbers::pi < 0.5);
@@ -240,7 +249,7 @@ TEST_CASE("missing samples have no answer and hide nothing", "[screenspace]") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const Surface surface = build_surface(make_map(
       32, 32, Boundary::open, [&](int row, int column) { return row == 16 || column == 3 ? nan : 0.0; }));
-  GtaoOptions options{4, 8};
+  GtaoOptions options{.slices = 4, .steps = 8};
   options.noise = GENERATE(DirectionNoise::none, DirectionNoise::spatial);
   options.thickness = GENERATE(0.0, 0.1);
   const Map sky = gtao(make_depth_buffer(surface), options).sky_view_factor;
@@ -256,7 +265,7 @@ TEST_CASE("missing samples have no answer and hide nothing", "[screenspace]") {
 TEST_CASE("equation 13's thickness only ever opens a height field", "[screenspace]") {
   const Surface surface = build_surface(make_synth_map("brick", 96, Boundary::tile, 0.1));
   const DepthBuffer depth = make_depth_buffer(surface);
-  GtaoOptions options{4, 32};
+  GtaoOptions options{.slices = 4, .steps = 32};
   options.noise = DirectionNoise::none;
   const Map without = gtao(depth, options).sky_view_factor;
   options.thickness = 1e-9;  // followed, but too thin to show

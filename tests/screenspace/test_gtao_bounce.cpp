@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "heightlight/closed_forms.h"
+#include "heightlight/forms.h"
 #include "heightlight/screenspace.h"
 #include "screenspace/gtao_bounce_kernel.h"
 #include "test_maps.h"
@@ -19,8 +19,14 @@ TEST_CASE("the bounce's lanes and its scalar twin agree on every instruction set
   const DepthSampling sampling = GENERATE(DepthSampling::nearest, DepthSampling::mesh);
   const Surface surface = build_surface(make_rough_map(width, height, boundary, 0.1, 0.1, 3));
   const DepthBuffer depth = make_depth_buffer(surface);
-  const SliceTables tables = make_slice_tables(
-      depth, {2, 9, StepDistribution::stratified, sampling, DirectionNoise::spatial, 0.3}, 0);
+  const SliceTables tables = make_slice_tables(depth,
+                                               {.slices = 2,
+                                                .steps = 9,
+                                                .distribution = StepDistribution::stratified,
+                                                .sampling = sampling,
+                                                .noise = DirectionNoise::spatial,
+                                                .reach = 0.3},
+                                               0);
   std::vector<float> radiance(depth.heights.size());
   for (int row = 0; row < depth.period_rows; ++row) {
     for (int column = 0; column < depth.stride * DepthBuffer::kPhases; ++column) {  // on around the torus
@@ -61,10 +67,7 @@ GtaoOptions fine_options() {
 TEST_CASE("the bounce gathers what exact walks gather", "[screenspace]") {
   const Surface surface = build_surface(make_synth_map("fbm", 48, Boundary::tile, 0.2));
   const ScreenSpaceView view = gtao_with_bounce(make_depth_buffer(surface), fine_options());
-  TexelVector sky(48 * 48);
-  for (Eigen::Index i = 0; i < sky.size(); ++i) {
-    sky[i] = double{view.sky_view_factor.values[static_cast<std::size_t>(i)]};
-  }
+  const auto sky = [&](std::size_t texel) { return double{view.sky_view_factor.values[texel]}; };
   const ExactWalker walker(surface, 128);
   double squares = 0;
   double exact_sum = 0;
@@ -72,7 +75,7 @@ TEST_CASE("the bounce gathers what exact walks gather", "[screenspace]") {
     SliceView exact;
     for (int column = 0; column < 48; ++column) {
       walker.view(row, column, exact);
-      const double first = gather_exactly(exact, sky, surface);
+      const double first = gather_exactly(exact, surface, sky);
       const double found = (1 - double{view.sky_view_factor(row, column)}) * double{view.seen(row, column)};
       squares += (found - first) * (found - first);
       exact_sum += first;

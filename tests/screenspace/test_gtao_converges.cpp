@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "heightlight/files.h"
 #include "heightlight/screenspace.h"
 #include "screenspace/gtao_kernel.h"
 #include "shared_data.h"

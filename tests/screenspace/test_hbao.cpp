@@ -20,8 +20,14 @@ TEST_CASE("HBAO's lanes and its scalar twin agree on every instruction set", "[s
   const float per_squared_reach = GENERATE(0.0F, 20.0F);
   const Surface surface = build_surface(make_rough_map(width, height, boundary, 0.1, 0.1, 3));
   const DepthBuffer depth = make_depth_buffer(surface);
-  const SliceTables tables = make_slice_tables(
-      depth, {3, 7, StepDistribution::stratified, sampling, DirectionNoise::spatial, 0.3}, 0);
+  const SliceTables tables = make_slice_tables(depth,
+                                               {.slices = 3,
+                                                .steps = 7,
+                                                .distribution = StepDistribution::stratified,
+                                                .sampling = sampling,
+                                                .noise = DirectionNoise::spatial,
+                                                .reach = 0.3},
+                                               0);
   const HbaoPass pass{depth, tables, per_squared_reach};
   for (int row = 0; row < height; ++row) {
     std::vector<float> twin(static_cast<std::size_t>(width));

@@ -110,9 +110,10 @@ TEST_CASE("a plane is open to ambient transfer and to SSDO: exactly 1", "[screen
   const Surface surface = build_surface(
       make_map(40, 32, Boundary::open, [&](int row, int column) { return slope * (column - row) / 40; }));
   const DepthBuffer depth = make_depth_buffer(surface);
-  const std::vector<SurfaceAlbedo> albedos{{0.5, nullptr}};
-  const ScreenSpaceView transfer = ambient_transfer(depth, albedos, {16, 2, GENERATE(false, true)});
-  const ScreenSpaceView directional = ssdo(depth, albedos, {16});
+  const std::vector<SurfaceAlbedo> albedos{{.constant = 0.5}};
+  const ScreenSpaceView transfer =
+      ambient_transfer(depth, albedos, {.samples = 16, .tests = 2, .square_root = GENERATE(false, true)});
+  const ScreenSpaceView directional = ssdo(depth, albedos, {.samples = 16});
   for (std::size_t i = 0; i < depth.row_height.size(); ++i) {
     REQUIRE(transfer.sky_view_factor.values[i] == Approx(1).margin(1e-6));  // identity, sixteen roundings
     REQUIRE(transfer.totals[0].values[i] == Approx(1).margin(1e-6));
@@ -126,7 +127,8 @@ TEST_CASE("with one albedo the ambient transfer is equation 12 of its obscurance
   const Surface surface = build_surface(make_synth_map("brick", 64, Boundary::tile, 0.1));
   const DepthBuffer depth = make_depth_buffer(surface);
   const Map grey(64, 64, 0.7F);
-  const ScreenSpaceView view = ambient_transfer(depth, {{0.7, nullptr}, {0, &grey}}, {16, 2, true});
+  const ScreenSpaceView view = ambient_transfer(depth, {{.constant = 0.7}, {.constant = 0, .map = &grey}},
+                                                {.samples = 16, .tests = 2, .square_root = true});
   double deepest = 1;
   for (std::size_t i = 0; i < grey.size(); ++i) {
     const double open = double{view.sky_view_factor.values[i]};
@@ -144,8 +146,13 @@ TEST_CASE("many tests on the way find what one misses: a thin wall", "[screenspa
       make_map(64, 64, Boundary::tile, [](int, int column) { return column % 16 == 8 ? 0.3 : 0.0; }));
   const DepthBuffer depth = make_depth_buffer(surface);
   const auto mean = [&](int tests) {
-    const Map open =
-        ambient_transfer(depth, {}, {64, tests, false, DirectionNoise::none, 0.3}).sky_view_factor;
+    const Map open = ambient_transfer(depth, {},
+                                      {.samples = 64,
+                                       .tests = tests,
+                                       .square_root = false,
+                                       .noise = DirectionNoise::none,
+                                       .reach = 0.3})
+                         .sky_view_factor;
     double sum = 0;
     for (int column = 0; column < 64; ++column) {
       if (column % 16 < 6 || column % 16 > 10) sum += double{open(30, column)};
@@ -160,8 +167,8 @@ TEST_CASE("SSDO sees which half of the sky a wall hides", "[screenspace]") {
   // A wall that runs along x: texels below it in the image look up (+y) at it.
   const Surface surface =
       build_surface(make_map(48, 48, Boundary::open, [](int row, int) { return row < 20 ? 0.4 : 0.0; }));
-  const ScreenSpaceView view =
-      ssdo(make_depth_buffer(surface), {{0.5, nullptr}}, {64, DirectionNoise::spatial, 0.5});
+  const ScreenSpaceView view = ssdo(make_depth_buffer(surface), {{.constant = 0.5}},
+                                    {.samples = 64, .noise = DirectionNoise::spatial, .reach = 0.5});
   const float whole = view.sky_view_factor(26, 24);
   const float upper = view.half_sky(26, 24);
   CHECK(whole < 0.9F);
@@ -173,30 +180,34 @@ TEST_CASE("SSDO sees which half of the sky a wall hides", "[screenspace]") {
 TEST_CASE("point methods tell the same for any number of threads", "[screenspace]") {
   const DepthBuffer depth = make_depth_buffer(rough_surface(40, 37, Boundary::tile));
   const auto run = [&] {
-    ScreenSpaceView view = ssdo(depth, {{0.5, nullptr}}, {8, DirectionNoise::temporal, 0.3});
+    ScreenSpaceView view =
+        ssdo(depth, {{.constant = 0.5}}, {.samples = 8, .noise = DirectionNoise::temporal, .reach = 0.3});
     std::vector<float> all = view.sky_view_factor.values;
     all.insert(all.end(), view.totals[0].values.begin(), view.totals[0].values.end());
-    const ScreenSpaceView other = ambient_transfer(depth, {{0.5, nullptr}}, {8});
+    const ScreenSpaceView other = ambient_transfer(depth, {{.constant = 0.5}}, {.samples = 8});
     all.insert(all.end(), other.totals[0].values.begin(), other.totals[0].values.end());
     for (float& value : all) {
       if (std::isnan(value)) value = -1;
     }
     return all;
   };
-  set_thread_count(1);
-  const std::vector<float> one = run();
-  set_thread_count(5);
-  CHECK(run() == one);
-  set_thread_count(0);
+  const auto run_on = [&](int threads) {
+    const ThreadScope scope(threads);
+    return run();
+  };
+  const std::vector<float> one = run_on(1);
+  CHECK(run_on(5) == one);
 }
 
 TEST_CASE("point methods refuse options outside their range", "[screenspace]") {
   const DepthBuffer depth = make_depth_buffer(rough_surface(4, 4, Boundary::tile));
-  CHECK_THROWS_AS(ambient_transfer(depth, {}, {0}), UsageError);
-  CHECK_THROWS_AS(ambient_transfer(depth, {}, {4, 0}), UsageError);
-  CHECK_THROWS_AS(ambient_transfer(depth, {}, {4, 1, true, DirectionNoise::none, 0}), UsageError);
-  CHECK_THROWS_AS(ssdo(depth, {}, {0}), UsageError);
-  CHECK_THROWS_AS(ssdo(depth, {}, {4, DirectionNoise::none, -1}), UsageError);
+  CHECK_THROWS_AS(ambient_transfer(depth, {}, {.samples = 0}), UsageError);
+  CHECK_THROWS_AS(ambient_transfer(depth, {}, {.samples = 4, .tests = 0}), UsageError);
+  const AmbientTransferOptions no_reach{
+      .samples = 4, .tests = 1, .square_root = true, .noise = DirectionNoise::none, .reach = 0};
+  CHECK_THROWS_AS(ambient_transfer(depth, {}, no_reach), UsageError);
+  CHECK_THROWS_AS(ssdo(depth, {}, {.samples = 0}), UsageError);
+  CHECK_THROWS_AS(ssdo(depth, {}, {.samples = 4, .noise = DirectionNoise::none, .reach = -1}), UsageError);
 }
 
 }  // namespace

@@ -18,8 +18,14 @@ std::vector<double> sorted_azimuths(DirectionNoise noise, int slices) {
   const DepthBuffer depth = flat_depth(32, 32, Boundary::tile);
   std::vector<double> azimuths;
   for (int frame = 0; frame < frame_count(noise); ++frame) {
-    const SliceTables tables = make_slice_tables(
-        depth, {slices, 1, StepDistribution::uniform, DepthSampling::nearest, noise, 0.5}, frame);
+    const SliceTables tables = make_slice_tables(depth,
+                                                 {.slices = slices,
+                                                  .steps = 1,
+                                                  .distribution = StepDistribution::uniform,
+                                                  .sampling = DepthSampling::nearest,
+                                                  .noise = noise,
+                                                  .reach = 0.5},
+                                                 frame);
     for (const std::vector<Slice>& table : tables.of) {
       for (const Slice& slice : table) azimuths.push_back(std::atan2(double{slice.y}, double{slice.x}));
     }
@@ -64,8 +70,14 @@ TEST_CASE("six turns by sixths of a slice's half turn are only three beside the 
 TEST_CASE("samples on the mesh weigh three texels by where they lie", "[screenspace]") {
   const Boundary boundary = GENERATE(Boundary::tile, Boundary::open);
   const DepthBuffer depth = flat_depth(20, 30, boundary);
-  const SliceTables tables = make_slice_tables(
-      depth, {5, 9, StepDistribution::quadratic, DepthSampling::mesh, DirectionNoise::spatial, 0.7}, 0);
+  const SliceTables tables = make_slice_tables(depth,
+                                               {.slices = 5,
+                                                .steps = 9,
+                                                .distribution = StepDistribution::quadratic,
+                                                .sampling = DepthSampling::mesh,
+                                                .noise = DirectionNoise::spatial,
+                                                .reach = 0.7},
+                                               0);
   const auto from_receiver = [](int offset, int period) {
     return offset > period / 2 ? offset - period : offset;
   };
@@ -100,8 +112,14 @@ TEST_CASE("samples on the mesh weigh three texels by where they lie", "[screensp
 
 TEST_CASE("the nearest sample is never the receiver, and knows its own distance", "[screenspace]") {
   const DepthBuffer depth = flat_depth(64, 64, Boundary::tile);
-  const SliceTables tables = make_slice_tables(
-      depth, {7, 16, StepDistribution::quadratic, DepthSampling::nearest, DirectionNoise::spatial, 0.2}, 0);
+  const SliceTables tables = make_slice_tables(depth,
+                                               {.slices = 7,
+                                                .steps = 16,
+                                                .distribution = StepDistribution::quadratic,
+                                                .sampling = DepthSampling::nearest,
+                                                .noise = DirectionNoise::spatial,
+                                                .reach = 0.2},
+                                               0);
   for (const std::vector<Slice>& table : tables.of) {
     for (const Slice& slice : table) {
       for (const std::vector<SliceSample>& side : slice.sides) {

@@ -100,8 +100,8 @@ Real slice_mass(Real c, Real n_z, Real m) {
 
 TwinSky twin_sky(const Surface& surface, int row, int column, int azimuths) {
   const Mesh mesh{surface};
-  const Eigen::Vector3f normal = surface.normal(row, column);
-  const Real length = std::hypot(Real{normal.x()}, Real{normal.y()}, Real{normal.z()});
+  const Vector3 normal = surface.normal(row, column);
+  const Real length = std::hypot(Real{normal.x}, Real{normal.y}, Real{normal.z});
   Real sky = 0;
   Real hemisphere = 0;
   Real solid = 0;
@@ -110,8 +110,8 @@ TwinSky twin_sky(const Surface& surface, int row, int column, int azimuths) {
         2 * std::numbers::pi_v<Real> * (static_cast<Real>(k) + 0.25L) / static_cast<Real>(azimuths);
     const Real x = std::cos(azimuth);
     const Real y = std::sin(azimuth);
-    const Real c = (Real{normal.x()} * x + Real{normal.y()} * y) / length;
-    const Real n_z = Real{normal.z()} / length;
+    const Real c = (Real{normal.x} * x + Real{normal.y} * y) / length;
+    const Real n_z = Real{normal.z} / length;
     const Line line{row, column, surface.map.height(row, column), x / surface.map.spacing.x,
                     -y / surface.map.spacing.y};
     const Real tangent = -c / n_z;

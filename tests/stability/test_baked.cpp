@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "bake/material.h"
+#include "base/texel_algebra.h"
 #include "stability/hard_maps.h"
 #include "visibility/exact_walk.h"
 
@@ -17,18 +18,18 @@ TEST_CASE("every hard map bakes to shares, bent normals no longer than these, to
     const Surface surface = build_surface(hard.map);
     BakeOptions options;
     options.maps = {MaterialMap::ao, MaterialMap::bent_normal, MaterialMap::multibounce, MaterialMap::ao_n};
-    const Material material = find_material(surface, options, hard.name);
+    const Material material = find_material(surface, options);
     for (std::size_t i = 0; i < surface.map.height.size(); ++i) {
-      const double sky = material.sky.sky_view_factor.values[i];
+      const double sky = material.results.sky_view_factor.values[i];
       if (std::isnan(surface.map.height.values[i])) {
         CHECK(std::isnan(sky));
         continue;
       }
       const double total = material.totals[0].values[i];
-      const double n = material.model_n.values[i];
+      const double n = material.results.seen.values[i];
       CHECK((sky >= 0 && sky <= 1));
       // |∫ V ω cosθ| ≤ ∫ V cosθ; in single precision, NaN fails too
-      CHECK(material.sky.moments.first.values[i].norm() <= sky + 1e-5);
+      CHECK(as_eigen(material.results.moments.first.values[i]).norm() <= sky + 1e-5);
       CHECK((total >= sky - 1e-6 && total <= 1 + 1e-6));  // single precision
       CHECK((n >= 0 && n <= 1));
     }
@@ -44,7 +45,7 @@ TEST_CASE("on hard maps without steep tiles baked A is that of exact slices", "[
     BakeOptions options;
     options.maps = {MaterialMap::ao};
     options.error = 0.005;
-    const Material material = find_material(surface, options, hard.name);
+    const Material material = find_material(surface, options);
     const ExactWalker walker(surface, 512);
     double squares = 0;
     int count = 0;
@@ -53,7 +54,7 @@ TEST_CASE("on hard maps without steep tiles baked A is that of exact slices", "[
         if (std::isnan(surface.map.height(row, column))) continue;
         SliceView view;
         walker.view(row, column, view);
-        const double error = material.sky.sky_view_factor(row, column) - view.sky_view_factor;
+        const double error = material.results.sky_view_factor(row, column) - view.sky_view_factor;
         squares += error * error;
         ++count;
       }

@@ -13,15 +13,15 @@ namespace {
 
 TexelVector total_at(const Simulated& simulated, double albedo) {
   const Transport& transport = *simulated.transport;
-  const TexelVector reflectance = TexelVector::Constant(transport.direct.size(), albedo);
+  const TexelVector reflectance(transport.direct.size(), albedo);
   return solve_equilibrium(transport, transport.direct, reflectance, transport.direct).irradiance;
 }
 
 /// Calls visit(texel, A) for every sample that is there.
 template <class Visit>
 void for_samples(const Simulated& simulated, Visit&& visit) {
-  for (Eigen::Index i = 0; i < simulated.transport->direct.size(); ++i) {
-    if (std::isnan(simulated.surface.map.height.values[static_cast<std::size_t>(i)])) continue;
+  for (std::size_t i = 0; i < simulated.transport->direct.size(); ++i) {
+    if (std::isnan(simulated.surface.map.height.values[i])) continue;
     visit(i, SkyViewFactor(simulated.transport->direct[i]));
   }
 }
@@ -34,7 +34,7 @@ TEST_CASE("on every hard map one total bounds all others, and the n stored gives
     const double residual = 300 * simulated.transport->solver_tolerance();
     for (const double albedo : {0.3, 0.9}) {
       const TexelVector total = total_at(simulated, albedo);
-      for_samples(simulated, [&](Eigen::Index i, SkyViewFactor<double> sky) {
+      for_samples(simulated, [&](std::size_t i, SkyViewFactor<double> sky) {
         const TotalBounds<double> bounds = bound_total(sky, stored[i], kSeenAlbedo, albedo);
         // The bounds are theorems; the solver's residual in `stored` moves them, by what a power of it
         // does: ten times as far at the bottom of wells, where q^γ is steep.
@@ -45,7 +45,7 @@ TEST_CASE("on every hard map one total bounds all others, and the n stored gives
         CHECK((model >= bounds.low - 1e-12 && model <= bounds.high + 1e-12));  // identity
       });
     }
-    for_samples(simulated, [&](Eigen::Index i, SkyViewFactor<double> sky) {
+    for_samples(simulated, [&](std::size_t i, SkyViewFactor<double> sky) {
       const SeenSkyViewFactor<double> n = seen_from_total(sky, stored[i], kSeenAlbedo);
       CHECK(std::fabs(bounced_total(sky, n, kSeenAlbedo) - stored[i]) < 1e-12 + residual);
     });
@@ -66,19 +66,17 @@ TEST_CASE("on every hard map each closed form is in [0, 1], or says that it is o
     // 1 − A of a map of floats has lost what is below 6e-8, which on nearly level maps is a part of it.
     double missing = 0;
     double count = 0;
-    for_samples(simulated, [&](Eigen::Index, SkyViewFactor<double> sky) {
+    for_samples(simulated, [&](std::size_t, SkyViewFactor<double> sky) {
       missing += 1 - sky.value;
       ++count;
     });
     CHECK((measured.value >= 0 && measured.value * missing <= missing + 6e-8 * count));
-    for_samples(simulated, [&](Eigen::Index i, SkyViewFactor<double> sky) {
-      const auto texel = static_cast<std::size_t>(i);
+    for_samples(simulated, [&](std::size_t i, SkyViewFactor<double> sky) {
       ModelInputs inputs;
-      inputs.ambient_occlusion =
-          AmbientOcclusion(double{simulated.transport->ambient_occlusion.values[texel]});
+      inputs.ambient_occlusion = AmbientOcclusion(double{simulated.transport->ambient_occlusion.values[i]});
       inputs.sky_view_factor = sky;
       inputs.expected_seen = inputs.deep_seen = inputs.seen = expected;
-      inputs.blurred = SeenSkyViewFactor(double{blurred.values[texel]});
+      inputs.blurred = SeenSkyViewFactor(double{blurred.values[i]});
       for (const ClosedForm& form : closed_forms()) {
         CAPTURE(form.name);
         for (const double albedo : {0.0, 0.5, 1 - 1e-7, 1.0}) {

@@ -4,6 +4,7 @@
 #include <iomanip>
 
 #include "heightlight/curves.h"
+#include "heightlight/files.h"
 #include "scratch_folder.h"
 #include "stability/profile_twin.h"
 #include "test_maps.h"
@@ -31,7 +32,7 @@ TEST_CASE("millimetres of relief a thousand kilometres up are the same as on the
   const Simulated here = simulate_map(low, by_exact_slices(16), 1);
   const Simulated there = simulate_map(high, by_exact_slices(16), 1);
   // discretisation of the text: a double holds 10⁶ to 10⁻¹⁰, a ten millionth of the relief
-  CHECK((here.transport->direct - there.transport->direct).cwiseAbs().maxCoeff() < 1e-6);
+  CHECK((as_eigen(here.transport->direct) - as_eigen(there.transport->direct)).cwiseAbs().maxCoeff() < 1e-6);
 }
 
 TEST_CASE("the base of the heights changes nothing", "[stability]") {
@@ -65,7 +66,8 @@ TEST_CASE("where single precision ends, double goes on: A at the bottom of ever 
   CHECK(view.sky_view_factor == Approx(expected).epsilon(1e-12).margin(0));
   // Fast walks sum in single precision: good to 10⁻⁷ of the whole hemisphere, which below A = 10⁻⁷ is all of
   // A. Maps ask for no more; `--error 0` walks exactly.
-  const auto walked = build_horizon_transport(surface, {{32, 32, 0.3F}, {32, 32, 0.3F}}, {});
+  const WalkOptions walk{.azimuths = 32, .fineness = 32, .peak_share = 0.3F};
+  const auto walked = build_horizon_transport(surface, {.sky = {.walk = walk}, .links = {.walk = walk}}, {});
   CHECK(std::fabs(walked->sky_view_factor(4, 4) - expected) < 3e-7);
 }
 
@@ -85,11 +87,11 @@ TEST_CASE("an infinite trench is right at any depth that azimuths resolve", "[st
 }
 
 TEST_CASE("means of sixteen million values lose nothing that shows", "[stability][slow]") {
-  constexpr Eigen::Index kCount = Eigen::Index{1} << 24;
+  constexpr std::size_t kCount = std::size_t{1} << 24;
   // 1 + tiny, alternating: a naive single-precision sum would stand still.
   Map ao(1 << 12, 1 << 12, 0.5F);
   TexelVector values(kCount);
-  for (Eigen::Index i = 0; i < kCount; ++i) values[i] = 1 + (i % 2 == 0 ? 1e-9 : 3e-9);
+  for (std::size_t i = 0; i < kCount; ++i) values[i] = 1 + (i % 2 == 0 ? 1e-9 : 3e-9);
   CurveBuilder builder(ao, AoKind::sky_view_factor, 10);
   builder.add(values);
   const BounceStatistics& statistics = builder.curves().filled.at(0).bounces.at(0);
@@ -100,7 +102,7 @@ TEST_CASE("means of sixteen million values lose nothing that shows", "[stability
 TEST_CASE("the form factors of sixty-five thousand rays sum to the rest of the hemisphere",
           "[stability][slow]") {
   const Surface surface = build_surface(well(3));
-  const FormFactors rays = build_form_factors(surface, {{65536, 1}});
+  const FormFactors rays = build_form_factors(surface, {.rays = 65536, .seed = 1}, {});
   CHECK(rays.link_count() > 700000);
   CHECK(row_sum_error(rays) < 1e-12);
 }

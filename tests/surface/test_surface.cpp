@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "base/texel_algebra.h"
 #include "heightlight/surface.h"
 #include "surface/maximum_pyramid.h"
 #include "test_maps.h"
@@ -17,8 +18,8 @@ TEST_CASE("a plane has its own normal everywhere, open edges included", "[surfac
   const Surface surface = build_surface(map);
   // Rows run down the image and y up: the height grows by 0.2 per row upwards.
   const Eigen::Vector3d expected = Eigen::Vector3d(-0.3 / 2, -0.2 / 0.5, 1).normalized();
-  for (const Eigen::Vector3f& normal : surface.normal.values) {
-    CHECK((normal.cast<double>() - expected).norm() < kRounding);
+  for (const Vector3& normal : surface.normal.values) {
+    CHECK((as_eigen(normal).cast<double>() - expected).norm() < kRounding);
   }
 }
 
@@ -27,10 +28,9 @@ TEST_CASE("normals wrap when tiling", "[surface]") {
       make_map(4, 1, Boundary::tile, [](int, int column) { return column == 0 ? 1.0 : 0.0; });
   const Surface surface = build_surface(map);
   const double slope = 1.0 / (2 * 0.25);
-  CHECK(surface.normal(0, 0).z() == 1.0F);  // both neighbours alike
-  CHECK(surface.normal(0, 3).x() ==
-        Approx(-slope / std::hypot(1, slope)));  // the peak is its right neighbour
-  CHECK(surface.normal(0, 1).x() == Approx(slope / std::hypot(1, slope)));
+  CHECK(surface.normal(0, 0).z == 1.0F);                                   // both neighbours alike
+  CHECK(surface.normal(0, 3).x == Approx(-slope / std::hypot(1, slope)));  // the peak is its right neighbour
+  CHECK(surface.normal(0, 1).x == Approx(slope / std::hypot(1, slope)));
 }
 
 TEST_CASE("beside a missing sample the slope is one-sided; a lone sample is level", "[surface]") {
@@ -39,11 +39,11 @@ TEST_CASE("beside a missing sample the slope is one-sided; a lone sample is leve
   map.spacing = {1, 1};
   map.height(0, 2) = hole;
   Surface surface = build_surface(map);
-  CHECK(surface.normal(0, 1).x() == Approx(-0.5 / std::hypot(1, 0.5)));
-  CHECK(std::isnan(surface.normal(0, 2).z()));
+  CHECK(surface.normal(0, 1).x == Approx(-0.5 / std::hypot(1, 0.5)));
+  CHECK(std::isnan(surface.normal(0, 2).z));
   map.height(0, 0) = hole;
   surface = build_surface(map);
-  CHECK(surface.normal(0, 1) == Eigen::Vector3f::UnitZ());
+  CHECK(surface.normal(0, 1) == Vector3{0, 0, 1});
 }
 
 TEST_CASE("each entry of the maximum pyramid is the highest vertex of its block", "[surface]") {

@@ -27,7 +27,7 @@ TEST_CASE("a flat map is open everywhere and has no links", "[transport][analyti
     CHECK(flat.transport->sky_view_factor.values[i] == 1);
     CHECK(flat.transport->ambient_occlusion.values[i] == 1);
   }
-  CHECK(flat.tail.irradiance.isZero(0));
+  CHECK(as_eigen(flat.tail.irradiance).isZero(0));
   CHECK(flat.series.spectral_radius == 0);
 }
 
@@ -41,8 +41,8 @@ TEST_CASE("an open tilted plane sees only sky, also below the horizontal", "[tra
   const Simulated plane = simulate_map(
       make_map(33, 21, Boundary::open, [](int row, int column) { return 0.05 * column + 0.02 * row; }),
       finder);
-  CHECK((plane.bounces[0].array() - 1).abs().maxCoeff() < tolerance);
-  CHECK(plane.bounces[1].maxCoeff() < tolerance);
+  CHECK((as_eigen(plane.bounces[0]).array() - 1).abs().maxCoeff() < tolerance);
+  CHECK(as_eigen(plane.bounces[1]).maxCoeff() < tolerance);
 }
 
 /// A at distance `left` and `right` (texels) from walls of `depth` texels: each hides 1 − cos β of its half

@@ -6,6 +6,8 @@
 
 #include "base/hash.h"
 #include "base/parallel.h"
+#include "base/texel_algebra.h"
+#include "heightlight/files.h"
 #include "shared_data.h"
 #include "test_maps.h"
 #include "transport/exact_gather.h"
@@ -46,6 +48,11 @@ std::optional<Heightmap> named_map(const std::string& name) {
   return real_map("terrain/lakes_dem.tif", terrain, 1);
 }
 
+/// What an exact walk saw sends.
+double gather_radiosity(const SliceView& view, const Surface& surface, const TexelVector& radiosity) {
+  return gather_exactly(view, surface, [&](std::size_t texel) { return radiosity[texel]; });
+}
+
 /// A and what the surface sends, by 65536 rays.
 struct RayView {
   double sky = 0;
@@ -61,7 +68,7 @@ RayView cast(const RayCaster& caster, const Surface& surface, const TexelVector&
   for (std::size_t hit = 0; hit < view.ray.size(); ++hit) {
     as_slices.links.push_back({view.weight[view.ray[hit]], view.place[hit]});
   }
-  return {sky_share(view).sky_view_factor, gather_exactly(as_slices, radiosity, surface)};
+  return {sky_share(view).sky_view_factor, gather_radiosity(as_slices, surface, radiosity)};
 }
 
 TEST_CASE("512 exact azimuths see the light that 65536 rays see: A to 3e-4, the total to 1e-3",
@@ -70,10 +77,11 @@ TEST_CASE("512 exact azimuths see the light that 65536 rays see: A to 3e-4, the 
   const std::optional<Heightmap> map = named_map(name);
   if (!map) return;
   const Surface surface = build_surface(*map);
-  const PlannedTransport planned = plan_horizon_transport(surface, {0.002}, {});
-  const TexelVector radiosity = kAlbedo * solve_totals(*planned.transport, {kAlbedo}, 1e-4).totals[0];
+  const PlannedTransport planned = plan_horizon_transport(surface, {.error = 0.002}, {});
+  const TexelVector light = solve_totals(*planned.transport, {kAlbedo}, 1e-4).totals[0];
+  const TexelVector radiosity = to_texels(kAlbedo * as_eigen(light));
   const ExactWalker walker(surface, 512);
-  const RayCaster caster(surface, {65536, 5});
+  const RayCaster caster(surface, {.rays = 65536, .seed = 5});
   std::vector<double> sky(kReceivers);
   std::vector<double> total(kReceivers);
   parallel_for(kReceivers, [&](std::int64_t i) {
@@ -85,7 +93,7 @@ TEST_CASE("512 exact azimuths see the light that 65536 rays see: A to 3e-4, the 
     walker.view(row, column, view);
     const RayView rays = cast(caster, surface, radiosity, row, column);
     sky[at] = view.sky_view_factor - rays.sky;
-    total[at] = sky[at] + gather_exactly(view, radiosity, surface) - rays.gathered;
+    total[at] = sky[at] + gather_radiosity(view, surface, radiosity) - rays.gathered;
   });
   double sky_squares = 0;
   double total_squares = 0;

@@ -7,6 +7,7 @@
 
 #include "base/hash.h"
 #include "base/parallel.h"
+#include "base/texel_algebra.h"
 #include "heightlight/error.h"
 #include "heightlight/transport.h"
 #include "test_maps.h"
@@ -18,21 +19,23 @@ namespace {
 
 /// Cheap walks, and one receiver's links in `stride` a side.
 HorizonPlan cheap_plan(int stride = 1) {
-  HorizonPlan plan{{16, 16, 0.3F}, {12, 8, 0.3F}};
-  plan.lattice_stride = stride;
-  plan.lattice_links = plan.links;
-  plan.own_share = stride > 1 ? 0 : 1;
-  return plan;
+  const WalkOptions links{.azimuths = 12, .fineness = 8, .peak_share = 0.3F};
+  return {.sky = {.walk = {.azimuths = 16, .fineness = 16, .peak_share = 0.3F}},
+          .links = {.walk = links,
+                    .lattice_stride = stride,
+                    .lattice_walk = links,
+                    .own_share = stride > 1 ? 0.0 : 1.0}};
 }
 
 /// Of order 1, with a period of the map's size.
 TexelVector smooth_field(const Surface& surface) {
-  TexelVector x(static_cast<Eigen::Index>(surface.map.height.size()));
+  TexelVector x(surface.map.height.size());
   for (int row = 0; row < surface.height(); ++row) {
     for (int column = 0; column < surface.width(); ++column) {
       const double u = 2 * std::numbers::pi * column / surface.width();
       const double v = 2 * std::numbers::pi * row / surface.height();
-      x[row * surface.width() + column] = 0.5 + 0.25 * std::sin(2 * u + v) + 0.25 * std::cos(3 * v - u);
+      x[surface.map.height.index(row, column)] =
+          0.5 + 0.25 * std::sin(2 * u + v) + 0.25 * std::cos(3 * v - u);
     }
   }
   return x;
@@ -48,8 +51,8 @@ TEST_CASE("sky + F 1 = 1 in every row of horizon walks", "[transport][horizon]")
   const auto transport = build_horizon_transport(surface, cheap_plan(), {});
   CHECK(row_sum_error(*transport) < 1e-15);  // identity: the mean of ones is 1 to the last bit
   const TexelVector gathered = gather(*transport, smooth_field(surface));
-  for (Eigen::Index i = 0; i < gathered.size(); ++i) {
-    const bool hole = std::isnan(surface.map.height.values[static_cast<std::size_t>(i)]);
+  for (std::size_t i = 0; i < gathered.size(); ++i) {
+    const bool hole = std::isnan(surface.map.height.values[i]);
     REQUIRE((hole ? gathered[i] == 0 : gathered[i] >= 0 && gathered[i] <= 1));
   }
 }
@@ -66,7 +69,7 @@ TEST_CASE("a flat map has no links in memory", "[transport][horizon]") {
   const Surface surface = build_surface(make_map(40, 30, Boundary::tile, [](int, int) { return 0.3; }));
   const auto transport = build_horizon_transport(surface, cheap_plan(), {});
   CHECK(transport->link_count() == 0);
-  CHECK(transport->direct == TexelVector::Ones(40 * 30));
+  CHECK(transport->direct == TexelVector(40 * 30, 1));
 }
 
 TEST_CASE("gathers are the same, bit for bit, whether links are kept, partly kept or walked again",
@@ -76,8 +79,9 @@ TEST_CASE("gathers are the same, bit for bit, whether links are kept, partly kep
   const Surface surface = build_surface(make_rough_map(200, 130, Boundary::open, 0.2, missing, 3));
   const TexelVector field = smooth_field(surface);
   const auto kept = build_horizon_transport(surface, cheap_plan(stride), {});
-  const auto partly = build_horizon_transport(surface, cheap_plan(stride), {kept->bytes() / 10 * 7});
-  const auto walked = build_horizon_transport(surface, cheap_plan(stride), {0});
+  const auto partly =
+      build_horizon_transport(surface, cheap_plan(stride), {.memory = kept->bytes() / 10 * 7});
+  const auto walked = build_horizon_transport(surface, cheap_plan(stride), {.memory = 0});
   CHECK(walked->bytes() == 0);
   CHECK(partly->bytes() > 0);
   CHECK(partly->bytes() <= kept->bytes() / 10 * 7);
@@ -91,31 +95,29 @@ TEST_CASE("horizon walks do not depend on the number of threads, nor on when the
           "[transport][horizon]") {
   const Surface surface = build_surface(make_rough_map(150, 131, Boundary::tile, 0.3, 0.1, 6));
   const TexelVector field = smooth_field(surface);
-  set_thread_count(1);
+  const ThreadScope one_thread(1);
   const auto one = build_horizon_transport(surface, cheap_plan(), {});
   const TexelVector gathered = gather(*one, field);
   for (const int threads : {1, 2, 7}) {
-    set_thread_count(threads);
+    const ThreadScope more_threads(threads);
     const auto other = build_horizon_transport(surface, cheap_plan(), {});
     CHECK(other->direct == one->direct);
     CHECK(gather(*other, field) == gathered);
   }
-  set_thread_count(0);
 }
 
 TEST_CASE("the plan does not depend on the number of threads", "[transport][horizon]") {
   const Surface surface = build_surface(make_synth_map("brick", 128, Boundary::tile, 0.2));
-  set_thread_count(1);
-  const PlannedTransport one = plan_horizon_transport(surface, {0.004}, {});
+  const ThreadScope one_thread(1);
+  const PlannedTransport one = plan_horizon_transport(surface, {.error = 0.004}, {});
   for (const int threads : {2, 7}) {
-    set_thread_count(threads);
-    const PlannedTransport other = plan_horizon_transport(surface, {0.004}, {});
-    CHECK(other.plan.sky_error == one.plan.sky_error);
-    CHECK(other.plan.link_error == one.plan.link_error);
+    const ThreadScope more_threads(threads);
+    const PlannedTransport other = plan_horizon_transport(surface, {.error = 0.004}, {});
+    CHECK(other.plan.sky.error == one.plan.sky.error);
+    CHECK(other.plan.links.error == one.plan.links.error);
     CHECK(other.transport->direct == one.transport->direct);
     CHECK(gather(*other.transport, one.transport->direct) == gather(*one.transport, one.transport->direct));
   }
-  set_thread_count(0);
 }
 
 TEST_CASE("dim light is gathered as well as bright light, to the last bit", "[transport][horizon]") {
@@ -125,17 +127,24 @@ TEST_CASE("dim light is gathered as well as bright light, to the last bit", "[tr
   const auto transport = build_horizon_transport(surface, cheap_plan(stride), {});
   const double factor = std::ldexp(1.0, dimming);
   const TexelVector field = smooth_field(surface);
-  CHECK(gather(*transport, factor * field) == factor * gather(*transport, field));
-  CHECK(gather(*transport, TexelVector::Zero(field.size())).isZero(0));
-  CHECK(gather(*transport, TexelVector::Constant(field.size(), 1e-320)).allFinite());
+  const TexelVector bright = gather(*transport, field);
+  CHECK(gather(*transport, to_texels(factor * as_eigen(field))) == to_texels(factor * as_eigen(bright)));
+  CHECK(gather(*transport, TexelVector(field.size(), 0)) == TexelVector(field.size(), 0));
+  const TexelVector dimmest = gather(*transport, TexelVector(field.size(), 1e-320));
+  CHECK(as_eigen(dimmest).allFinite());
+}
+
+TexelVector difference(const TexelVector& a, const TexelVector& b) {
+  return to_texels(as_eigen(a) - as_eigen(b));
 }
 
 /// The values of a map of `size` × `size` moved by whole texels around its torus.
 TexelVector shift(const TexelVector& values, int size, int rows, int columns) {
   TexelVector shifted(values.size());
+  const auto texel = [&](int row, int column) { return static_cast<std::size_t>(row * size + column); };
   for (int row = 0; row < size; ++row) {
     for (int column = 0; column < size; ++column) {
-      shifted[(row + rows) % size * size + (column + columns) % size] = values[row * size + column];
+      shifted[texel((row + rows) % size, (column + columns) % size)] = values[texel(row, column)];
     }
   }
   return shifted;
@@ -164,20 +173,21 @@ TEST_CASE("any other shift changes A and gathers by no more than sampling errs: 
   const Heightmap map = make_synth_map(shape, kSize, Boundary::tile, 0.2);
   const Surface here = build_surface(map);
   const Surface there = build_surface(shift_map(map, 19, 31));
-  const HorizonPlan plan{{16, 32, 0.3F}, {16, 16, 0.3F}};
+  const HorizonPlan plan{.sky = {.walk = {.azimuths = 16, .fineness = 32, .peak_share = 0.3F}},
+                         .links = {.walk = {.azimuths = 16, .fineness = 16, .peak_share = 0.3F}}};
   const auto transport = build_horizon_transport(here, plan, {});
   const auto shifted = build_horizon_transport(there, plan, {});
   const TexelVector field = smooth_field(here);
-  const TexelVector sky = shifted->direct - shift(transport->direct, kSize, 19, 31);
-  const TexelVector light =
-      gather(*shifted, shift(field, kSize, 19, 31)) - shift(gather(*transport, field), kSize, 19, 31);
+  const TexelVector sky = difference(shifted->direct, shift(transport->direct, kSize, 19, 31));
+  const TexelVector light = difference(gather(*shifted, shift(field, kSize, 19, 31)),
+                                       shift(gather(*transport, field), kSize, 19, 31));
   double worst_line = 0;  // a seam would stand out in its row's or column's mean
   for (int i = 0; i < kSize; ++i) {
     double in_row = 0;
     double in_column = 0;
     for (int j = 0; j < kSize; ++j) {
-      in_row += sky[i * kSize + j] / kSize;
-      in_column += sky[j * kSize + i] / kSize;
+      in_row += sky[static_cast<std::size_t>(i * kSize + j)] / kSize;
+      in_column += sky[static_cast<std::size_t>(j * kSize + i)] / kSize;
     }
     worst_line = std::max({worst_line, std::fabs(in_row), std::fabs(in_column)});
   }
@@ -199,12 +209,13 @@ TEST_CASE("gathers of a smooth field come near exact ones, ever nearer with azim
   const TexelVector field = smooth_field(surface);
   const ExactWalker walker(surface, 128);
   std::vector<double> exact(kTried);
-  const auto texel = [](std::size_t i) { return static_cast<Eigen::Index>(scramble(i) % (kSize * kSize)); };
+  const auto texel = [](std::size_t i) { return scramble(i) % (kSize * kSize); };
   parallel_for(kTried, [&](std::int64_t i) {
-    const Eigen::Index at = texel(static_cast<std::size_t>(i));
+    const int at = static_cast<int>(texel(static_cast<std::size_t>(i)));
     SliceView view;
-    walker.view(static_cast<int>(at) / kSize, static_cast<int>(at) % kSize, view);
-    exact[static_cast<std::size_t>(i)] = gather_exactly(view, field, surface);
+    walker.view(at / kSize, at % kSize, view);
+    exact[static_cast<std::size_t>(i)] =
+        gather_exactly(view, surface, [&](std::size_t seen) { return field[seen]; });
   });
   struct Step {
     WalkOptions links;
@@ -213,8 +224,14 @@ TEST_CASE("gathers of a smooth field come near exact ones, ever nearer with azim
   // discretisation: of azimuths and of samples, and of blocks where light is read (measured, the worst of the
   // six maps: 3.5e-3, 1.2e-3, 5.7e-4 of a field of order 1, of which up to 0.14 is gathered)
   for (const Step& step :
-       {Step{{8, 8, 0.3F}, 5e-3}, Step{{16, 16, 0.3F}, 1.8e-3}, Step{{32, 32, 0.3F}, 8e-4}}) {
-    const auto transport = build_horizon_transport(surface, {{64, 32, 0.3F}, step.links}, {});
+       {Step{.links = {.azimuths = 8, .fineness = 8, .peak_share = 0.3F}, .bound = 5e-3},
+        Step{.links = {.azimuths = 16, .fineness = 16, .peak_share = 0.3F}, .bound = 1.8e-3},
+        Step{.links = {.azimuths = 32, .fineness = 32, .peak_share = 0.3F}, .bound = 8e-4}}) {
+    const auto transport =
+        build_horizon_transport(surface,
+                                {.sky = {.walk = {.azimuths = 64, .fineness = 32, .peak_share = 0.3F}},
+                                 .links = {.walk = step.links}},
+                                {});
     const TexelVector gathered = gather(*transport, field);
     double squares = 0;
     for (std::size_t i = 0; i < kTried; ++i) squares += std::pow(gathered[texel(i)] - exact[i], 2);
@@ -226,12 +243,17 @@ TEST_CASE("gathers of a smooth field come near exact ones, ever nearer with azim
 TEST_CASE("numbers of azimuths outside their range are refused", "[transport][horizon]") {
   const Surface surface = build_surface(make_map(4, 4, Boundary::tile, [](int, int) { return 0; }));
   for (const int azimuths : {-2, 0, 1, 7, 65538}) {
-    CHECK_THROWS_AS(build_horizon_transport(surface, {{azimuths, 8}, {8, 8}}, {}), UsageError);
-    CHECK_THROWS_AS(build_horizon_transport(surface, {{8, 8}, {azimuths, 8}}, {}), UsageError);
+    const WalkOptions good{.azimuths = 8, .fineness = 8};
+    const WalkOptions bad{.azimuths = azimuths, .fineness = 8};
+    const HorizonPlan bad_sky{.sky = {.walk = bad}, .links = {.walk = good}};
+    const HorizonPlan bad_links{.sky = {.walk = good}, .links = {.walk = bad}};
+    CHECK_THROWS_AS(build_horizon_transport(surface, bad_sky, {}), UsageError);
+    CHECK_THROWS_AS(build_horizon_transport(surface, bad_links, {}), UsageError);
   }
-  CHECK_THROWS_AS(plan_horizon_transport(surface, {0.0}, {}), UsageError);
-  CHECK_THROWS_AS(plan_horizon_transport(surface, {std::nan("")}, {}), UsageError);
-  CHECK_THROWS_AS(plan_horizon_transport(surface, {0.01, false, 7}, {}), UsageError);
+  const auto plan = [&](const HorizonGoal& goal) { plan_horizon_transport(surface, goal, {}); };
+  CHECK_THROWS_AS(plan({.error = 0}), UsageError);
+  CHECK_THROWS_AS(plan({.error = std::nan("")}), UsageError);
+  CHECK_THROWS_AS(plan({.error = 0.01, .azimuths = 7}), UsageError);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/texel_algebra.h"
 #include "test_maps.h"
 #include "transport/horizon_plan.h"
 #include "transport/receiver_blocks.h"
@@ -24,14 +25,15 @@ struct Ground {
       : surface(build_surface(std::move(map))),
         mips(build_height_mips(surface)),
         sky(surface.map.height.size()) {
-    const HorizonSky walked = walk_horizon_sky(surface, mips, {16, 8, 0.3F}, true);
-    for (Eigen::Index i = 0; i < sky.size(); ++i) {
-      const float share = walked.sky_view_factor.values[static_cast<std::size_t>(i)];
+    const HorizonSky walked =
+        walk_horizon_sky(surface, mips, {.walk = {.azimuths = 16, .fineness = 8, .peak_share = 0.3F}});
+    for (std::size_t i = 0; i < sky.size(); ++i) {
+      const float share = walked.sky_view_factor.values[i];
       sky[i] = std::isnan(share) ? 0 : double{share};
     }
   }
 
-  TexelVector gather(const TexelVector& x, const HorizonPlan& plan) const {
+  TexelVector gather(const TexelVector& x, const LinkPlan& plan) const {
     SeenLight light(surface, plan, {});
     if (plan.own_share > 0) light.add_own_links(mips, sky, plan, {});
     TexelVector result(sky.size());
@@ -40,20 +42,18 @@ struct Ground {
   }
 };
 
-HorizonPlan plan_of(int lattice_stride, double own_links_from) {
-  HorizonPlan plan;
-  plan.links = {8, 12, 0.3F};
-  plan.lattice_links = {12, 8, 0.3F};
-  plan.lattice_stride = lattice_stride;
-  plan.own_links_from = own_links_from;
-  plan.own_share = own_links_from == kInfinity ? 0 : 1;
-  return plan;
+LinkPlan plan_of(int lattice_stride, double own_from) {
+  return {.walk = {.azimuths = 8, .fineness = 12, .peak_share = 0.3F},
+          .lattice_stride = lattice_stride,
+          .lattice_walk = {.azimuths = 12, .fineness = 8, .peak_share = 0.3F},
+          .own_from = own_from,
+          .own_share = own_from == kInfinity ? 0.0 : 1.0};
 }
 
 /// Radiosity that no link could like.
 TexelVector make_light(const TexelVector& sky) {
   TexelVector x = sky;
-  for (Eigen::Index i = 0; i < x.size(); ++i) x[i] += 0.2 * std::sin(0.9 * static_cast<double>(i));
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] += 0.2 * std::sin(0.9 * static_cast<double>(i));
   return x;
 }
 
@@ -62,8 +62,10 @@ TEST_CASE("a block's share of the surface is the RMS of its receivers' 1 - A", "
   map.height(2, 17) = std::numeric_limits<float>::quiet_NaN();
   for (int column = 32; column < 37; ++column) map.height(4, column) = map.height(2, 17);
   const Surface surface = build_surface(map);
-  TexelVector sky = TexelVector::Ones(37 * 5);
-  for (int column = 16; column < 32; ++column) sky[2 * 37 + column] = 1 - 0.1 * (column - 15);
+  TexelVector sky(37 * 5, 1);
+  for (int column = 16; column < 32; ++column) {
+    sky[surface.map.height.index(2, column)] = 1 - 0.1 * (column - 15);
+  }
   double squares = 0;
   for (int k = 1; k <= 16; ++k) squares += k == 2 ? 0 : 0.01 * k * k;
   for (const int column : {16, 20, 31}) {
@@ -124,7 +126,7 @@ TEST_CASE("receivers have links of their own where they see much, and the lattic
   int own_count = 0;
   for (int row = 0; row < 128; ++row) {
     for (int column = 0; column < 128; ++column) {
-      const Eigen::Index texel = row * 128 + column;
+      const std::size_t texel = ground.surface.map.height.index(row, column);
       const bool is_own = surface_share(ground.surface, ground.sky, row, column) >= from;
       own_count += is_own ? 1 : 0;
       REQUIRE(mixed[texel] == (is_own ? own : lattice)[texel]);
@@ -133,22 +135,21 @@ TEST_CASE("receivers have links of their own where they see much, and the lattic
   CHECK(own_count > 128 * 128 / 10);
   CHECK(own_count < 128 * 128 * 9 / 10);
   // Where little is seen, a lattice errs by little.
-  CHECK(rms(mixed - own) < 0.5 * rms(lattice - own));
-  const TexelVector seen = ground.gather(TexelVector::Ones(x.size()), plan_of(2, from));
-  CHECK((seen - (1 - ground.sky.array()).matrix()).cwiseAbs().maxCoeff() <
-        1e-6);  // rounding, single precision
+  CHECK(rms(as_eigen(mixed) - as_eigen(own)) < 0.5 * rms(as_eigen(lattice) - as_eigen(own)));
+  const TexelVector seen = ground.gather(TexelVector(x.size(), 1), plan_of(2, from));
+  const auto error = as_eigen(seen).array() - (1 - as_eigen(ground.sky).array());
+  CHECK(error.abs().maxCoeff() < 1e-6);  // rounding, single precision
 }
 
 TEST_CASE("short of memory, a mixture of links walks again, and tells the same", "[transport][links]") {
   const Ground ground(make_synth_map("brick", 128, Boundary::tile, 0.2));
   const TexelVector x = make_light(ground.sky);
-  const HorizonPlan plan = plan_of(2, 0.4);
+  const LinkPlan plan = plan_of(2, 0.4);
   const TexelVector kept = ground.gather(x, plan);
   for (const std::uint64_t memory : {std::uint64_t{0}, std::uint64_t{1} << 20}) {
-    HorizonOptions options;
-    options.memory_limit = memory;
-    SeenLight light(ground.surface, plan, options);
-    light.add_own_links(ground.mips, ground.sky, plan, options);
+    const LinkLimits limits{.memory = memory};
+    SeenLight light(ground.surface, plan, limits);
+    light.add_own_links(ground.mips, ground.sky, plan, limits);
     CHECK(light.bytes() <= memory);
     CHECK(light.kept_share() < 1);
     TexelVector again(x.size());
@@ -161,14 +162,14 @@ TEST_CASE("a plan gives walls links of their own and spreads the rest from a lat
           "[transport][horizon][slow]") {
   const Surface surface = build_surface(make_synth_map("brick", 512, Boundary::tile, 0.1));
   const double error = 0.005;
-  const PlannedTransport planned = plan_horizon_transport(surface, {error, true}, {});
-  CHECK(planned.plan.lattice_stride > 1);
-  CHECK(planned.plan.own_share > 0.2);
-  CHECK(planned.plan.own_share < 0.8);
-  CHECK(planned.plan.link_error < error);
-  const TexelVector albedo = TexelVector::Constant(planned.transport->direct.size(), 0.8);
+  const PlannedTransport planned = plan_horizon_transport(surface, {.error = error, .total_only = true}, {});
+  CHECK(planned.plan.links.lattice_stride > 1);
+  CHECK(planned.plan.links.own_share > 0.2);
+  CHECK(planned.plan.links.own_share < 0.8);
+  CHECK(planned.plan.links.error < error);
   const TexelVector total = solve_totals(*planned.transport, {0.8}, 0.1 * error).totals[0];
-  const HorizonCheck check = check_by_exact_walks(surface, *planned.transport, total, albedo, 7);
+  const HorizonCheck check =
+      check_by_exact_walks(surface, planned.transport->direct, {{.total = total, .albedo = 0.8}}, 7)[0];
   INFO("total " << check.total_rmse);
   CHECK(check.total_rmse <
         1.5 * error);  // Monte Carlo: a pilot's RMSE against that of others (test_horizon_plan)

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "base/parallel.h"
+#include "base/texel_algebra.h"
 #include "heightlight/error.h"
 #include "test_maps.h"
 #include "transport/simulated.h"
@@ -11,6 +12,12 @@ namespace heightlight {
 namespace {
 
 constexpr double kRowTolerance = 1e-13;  // identity: n·ε of 128 weights that sum to 1
+
+double largest_difference(const TexelVector& a, const TexelVector& b) {
+  return (as_eigen(a) - as_eigen(b)).cwiseAbs().maxCoeff();
+}
+
+TexelVector add(const TexelVector& a, const TexelVector& b) { return to_texels(as_eigen(a) + as_eigen(b)); }
 
 bool same(const Map& a, const Map& b) {
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -29,11 +36,11 @@ TEST_CASE("sky + links = 1, and all bounces with their tail sum to 1", "[transpo
   CAPTURE(finder.name);
   const Simulated rough = simulate_map(make_rough_map(width, height, boundary, relief, missing, 2), finder);
   CHECK(row_sum_error(*rough.transport) < kRowTolerance);
-  const TexelVector total = rough.series.sum + rough.tail.irradiance;
-  for (Eigen::Index i = 0; i < total.size(); ++i) {
-    const bool hole = std::isnan(rough.surface.map.height.values[static_cast<std::size_t>(i)]);
+  const TexelVector& sum = rough.series.sum;
+  for (std::size_t i = 0; i < sum.size(); ++i) {
+    const bool hole = std::isnan(rough.surface.map.height.values[i]);
     // the solver's residual, 10⁻⁸ (horizon walks: 10⁻⁶), divided by 1 − spectral radius
-    CHECK(total[i] == Approx(hole ? 0 : 1).margin(1e-5));
+    CHECK(sum[i] + rough.tail.irradiance[i] == Approx(hole ? 0 : 1).margin(1e-5));
   }
 }
 
@@ -41,9 +48,9 @@ TEST_CASE("the white furnace: under albedo 1 and a sky of 1 the irradiance is 1 
   const Finder finder = GENERATE(by_rays(128), by_horizon_walks(), by_exact_slices(16));
   CAPTURE(finder.name);
   const Simulated bricks = simulate_map(make_synth_map("brick", 48, Boundary::tile, 0.3), finder);
-  const TexelVector ones = TexelVector::Ones(48 * 48);
-  const TexelVector after = bricks.bounces[0] + gather(*bricks.transport, ones);
-  CHECK((after - ones).cwiseAbs().maxCoeff() < kRowTolerance);
+  const TexelVector ones(48 * 48, 1);
+  const TexelVector after = add(bricks.bounces[0], gather(*bricks.transport, ones));
+  CHECK(largest_difference(after, ones) < kRowTolerance);
 }
 
 TEST_CASE("a tail at constant albedo is what further bounces bring", "[transport][slow]") {
@@ -53,21 +60,23 @@ TEST_CASE("a tail at constant albedo is what further bounces bring", "[transport
   const Simulated few = simulate_map(make_synth_map("sines", 32, Boundary::tile, 0.3), finder, 4);
   const Simulated many = simulate_map(make_synth_map("sines", 32, Boundary::tile, 0.3), finder, 400);
   const TexelVector tail = solve_tail(*few.transport, few.series, albedo).irradiance;
-  const TexelVector expected = sum_of_bounces(many, albedo, 400) - sum_of_bounces(many, albedo, 4);
+  const TexelVector all = sum_of_bounces(many, albedo, 400);
+  const TexelVector first = sum_of_bounces(many, albedo, 4);
+  const TexelVector expected = to_texels(as_eigen(all) - as_eigen(first));
   // truncation at 400 bounces, the solver's residual: 10⁻⁸, and for the single precision of walks 10⁻⁶
-  CHECK((tail - expected).cwiseAbs().maxCoeff() < 100 * few.transport->solver_tolerance());
+  CHECK(largest_difference(tail, expected) < 100 * few.transport->solver_tolerance());
 }
 
 TEST_CASE("an albedo map of one value gives what that constant gives", "[transport]") {
   const Finder finder = GENERATE(by_rays(128), by_horizon_walks(), by_exact_slices(16));
   CAPTURE(finder.name);
   const Simulated bricks = simulate_map(make_synth_map("brick", 32, Boundary::tile, 0.2), finder);
-  const TexelVector albedo = TexelVector::Constant(32 * 32, 0.7);
+  const TexelVector albedo(32 * 32, 0.7);
   const TexelVector direct = bricks.transport->direct;
   const TexelVector varying = solve_equilibrium(*bricks.transport, direct, albedo, direct).irradiance;
   const TexelVector constant =
-      sum_of_bounces(bricks, 0.7, 20) + solve_tail(*bricks.transport, bricks.series, 0.7).irradiance;
-  CHECK((varying - constant).cwiseAbs().maxCoeff() < 100 * bricks.transport->solver_tolerance());
+      add(sum_of_bounces(bricks, 0.7, 20), solve_tail(*bricks.transport, bricks.series, 0.7).irradiance);
+  CHECK(largest_difference(varying, constant) < 100 * bricks.transport->solver_tolerance());
 }
 
 TEST_CASE("light bounces by the albedo of the place that it comes from", "[transport]") {
@@ -76,10 +85,10 @@ TEST_CASE("light bounces by the albedo of the place that it comes from", "[trans
   CAPTURE(finder.name);
   const Simulated trench = simulate_map(make_synth_map("trench", 32, Boundary::tile, 0.3), finder);
   TexelVector albedo(32 * 32);
-  for (Eigen::Index i = 0; i < albedo.size(); ++i) albedo[i] = i % 32 < 16 ? 1 : 0;
+  for (std::size_t i = 0; i < albedo.size(); ++i) albedo[i] = i % 32 < 16 ? 1 : 0;
   const TexelVector direct = trench.transport->direct;
   const TexelVector total = solve_equilibrium(*trench.transport, direct, albedo, direct).irradiance;
-  CHECK((total - direct).minCoeff() > -0.1 * trench.transport->solver_tolerance());
+  CHECK((as_eigen(total) - as_eigen(direct)).minCoeff() > -0.1 * trench.transport->solver_tolerance());
   CHECK(total[16 * 32 + 19] - direct[16 * 32 + 19] > total[16 * 32 + 12] - direct[16 * 32 + 12]);
 }
 
@@ -87,15 +96,17 @@ TEST_CASE("exchange is reciprocal: area times form factor is symmetric", "[trans
   const Finder finder = GENERATE(by_rays(512), by_horizon_walks(), by_exact_slices(32));
   CAPTURE(finder.name);
   const Simulated sines = simulate_map(make_synth_map("sines", 64, Boundary::tile, 0.3), finder, 1);
-  const auto n = static_cast<Eigen::Index>(64 * 64);
+  constexpr std::size_t n = 64 * 64;
   TexelVector x(n), y(n), area(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < n; ++i) {
     x[i] = 1 + std::sin(0.1 * static_cast<double>(i % 64));
     y[i] = 2 + std::cos(0.2 * static_cast<double>(i / 64));
-    area[i] = 1 / double{sines.surface.normal.values[static_cast<std::size_t>(i)].z()};
+    area[i] = 1 / double{sines.surface.normal.values[i].z};
   }
-  const double forth = (area.cwiseProduct(y)).dot(gather(*sines.transport, x));
-  const double back = (area.cwiseProduct(x)).dot(gather(*sines.transport, y));
+  const TexelVector from_x = gather(*sines.transport, x);
+  const TexelVector from_y = gather(*sines.transport, y);
+  const double forth = as_eigen(area).cwiseProduct(as_eigen(y)).dot(as_eigen(from_x));
+  const double back = as_eigen(area).cwiseProduct(as_eigen(x)).dot(as_eigen(from_y));
   CHECK(forth == Approx(back).epsilon(5e-3));  // discretisation: smooth normals stand for facets
 }
 
@@ -103,7 +114,7 @@ TEST_CASE("the spectral radius is the ratio to which bounces settle", "[transpor
   const Finder finder = GENERATE(by_rays(256), by_horizon_walks(), by_exact_slices(16));
   CAPTURE(finder.name);
   const Simulated sines = simulate_map(make_synth_map("sines", 32, Boundary::tile, 0.3), finder, 400);
-  const double ratio = sines.bounces[400].sum() / sines.bounces[399].sum();
+  const double ratio = as_eigen(sines.bounces[400]).sum() / as_eigen(sines.bounces[399]).sum();
   const Simulated early = simulate_map(make_synth_map("sines", 32, Boundary::tile, 0.3), finder, 20);
   CHECK(sines.series.spectral_radius == Approx(ratio).epsilon(1e-3));
   CHECK(early.series.spectral_radius == Approx(ratio).epsilon(0.05));
@@ -111,17 +122,16 @@ TEST_CASE("the spectral radius is the ratio to which bounces settle", "[transpor
 
 TEST_CASE("results do not depend on the number of threads", "[transport]") {
   const Heightmap map = make_rough_map(40, 29, Boundary::tile, 0.4, 0.1, 6);
-  set_thread_count(1);
+  const ThreadScope one_thread(1);
   const Simulated one = simulate_map(map, 128);
   for (const int threads : {2, 7}) {
-    set_thread_count(threads);
+    const ThreadScope more_threads(threads);
     const Simulated other = simulate_map(map, 128);
     CHECK(same(one.transport->sky_view_factor, other.transport->sky_view_factor));
     CHECK(same(one.transport->ambient_occlusion, other.transport->ambient_occlusion));
     CHECK(one.bounces == other.bounces);
     CHECK(one.tail.irradiance == other.tail.irradiance);
   }
-  set_thread_count(0);
 }
 
 TEST_CASE("shifting a tiled map by whole periods of the rays' turns shifts the result, bit for bit",
@@ -131,8 +141,8 @@ TEST_CASE("shifting a tiled map by whole periods of the rays' turns shifts the r
   const Simulated there = simulate_map(shift_map(map, 64, 64), 64);
   for (int row = 0; row < 128; ++row) {
     for (int column = 0; column < 128; ++column) {
-      const Eigen::Index moved = (row + 64) % 128 * 128 + (column + 64) % 128;
-      REQUIRE(here.bounces[3][row * 128 + column] == there.bounces[3][moved]);
+      const std::size_t moved = map.height.index((row + 64) % 128, (column + 64) % 128);
+      REQUIRE(here.bounces[3][map.height.index(row, column)] == there.bounces[3][moved]);
     }
   }
 }
@@ -146,9 +156,10 @@ TEST_CASE("shifting by any other amount changes nothing but the rays' noise: the
   for (int row = 0; row < 48; ++row) {
     double difference = 0;
     for (int column = 0; column < 48; ++column) {
-      const Eigen::Index moved = (row + 19) % 48 * 48 + (column + 31) % 48;
-      difference += (here.bounces[0][row * 48 + column] - there.bounces[0][moved]) / 48;
-      CHECK(here.bounces[0][row * 48 + column] == Approx(there.bounces[0][moved]).margin(0.01));
+      const double unmoved = here.bounces[0][map.height.index(row, column)];
+      const double moved = there.bounces[0][map.height.index((row + 19) % 48, (column + 31) % 48)];
+      difference += (unmoved - moved) / 48;
+      CHECK(unmoved == Approx(moved).margin(0.01));
     }
     worst_line = std::max(worst_line, std::fabs(difference));
   }
@@ -177,7 +188,8 @@ TEST_CASE("turning a map by 90 degrees turns the result, up to the cells' diagon
   const TexelVector sum_there = sum_of_bounces(there, 0.8, 20);
   for (int row = 0; row < 64; ++row) {
     for (int column = 0; column < 64; ++column) {
-      const double d = sum_here[row * 64 + column] - sum_there[(63 - column) * 64 + row];
+      const double d =
+          sum_here[map.height.index(row, column)] - sum_there[map.height.index(63 - column, row)];
       squares += d * d / 4096;
       difference += d / 4096;
     }
@@ -188,8 +200,15 @@ TEST_CASE("turning a map by 90 degrees turns the result, up to the cells' diagon
 
 TEST_CASE("links that would not fit are refused before they are made", "[transport]") {
   const Surface surface = build_surface(make_synth_map("brick", 64, Boundary::tile, 0.3));
-  CHECK_THROWS_WITH(build_form_factors(surface, {{256, 1}, 100'000}), Catch::Contains("--memory"));
-  CHECK_THROWS_AS(build_form_factors(surface, {{0, 1}}), UsageError);
+  try {
+    build_form_factors(surface, {.rays = 256, .seed = 1}, {.memory = 100'000});
+    FAIL("nothing was refused");
+  } catch (const MemoryError& error) {
+    CHECK(error.remedy == "memory");
+    CHECK_THAT(error.what(), Catch::Contains("97.7 KiB"));
+  }
+  const RayOptions none{.rays = 0, .seed = 1};
+  CHECK_THROWS_AS(build_form_factors(surface, none, {}), UsageError);
 }
 
 }  // namespace

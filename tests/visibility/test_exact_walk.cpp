@@ -5,6 +5,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "base/texel_algebra.h"
 #include "test_maps.h"
 #include "visibility/exact_walk.h"
 
@@ -79,7 +80,7 @@ TEST_CASE("the exact walk finds an open tilted plane open, also below the horizo
     CHECK(view.ambient_occlusion == Approx(1).margin(1e-7));
   }
   const SliceView inside = view_at(walker, 5, 8);
-  CHECK((inside.bent_normal - plane.normal(5, 8).cast<double>()).norm() < 1e-6);
+  CHECK((inside.bent_normal - as_eigen(plane.normal(5, 8)).cast<double>()).norm() < 1e-6);
   // Seen from the middle, the plane itself is the horizon; at the outer corners there is no surface on one
   // side.
   for (int k = 0; k < 64; ++k) {

@@ -6,6 +6,7 @@
 
 #include "base/hash.h"
 #include "base/parallel.h"
+#include "heightlight/files.h"
 #include "shared_data.h"
 #include "test_maps.h"
 #include "visibility/exact_walk.h"
@@ -39,7 +40,7 @@ double smooth_field(const Surface& surface, const SurfacePoint& place) {
 /// Root mean square difference between the walk and rays over receivers spread over the map by a hash.
 Rmse compare_with_rays(const Surface& surface, int azimuths) {
   const ExactWalker walker(surface, azimuths);
-  const RayCaster caster(surface, {kRays, 1});
+  const RayCaster caster(surface, {.rays = kRays, .seed = 1});
   std::vector<Rmse> squared(kReceivers);
   parallel_for(kReceivers, [&](std::int64_t i) {
     std::uint64_t texel = static_cast<std::uint64_t>(i);

@@ -58,14 +58,14 @@ TEST_CASE("neighbouring texels turn their rays differently, and turns repeat by 
 
 TEST_CASE("a number of rays outside 1 to 65536 is refused", "[visibility]") {
   const Surface surface = build_surface(make_map(4, 4, Boundary::tile, [](int, int) { return 0; }));
-  CHECK_THROWS_AS(RayCaster(surface, {0, 1}), UsageError);
-  CHECK_THROWS_AS(RayCaster(surface, {65537, 1}), UsageError);
+  CHECK_THROWS_AS(RayCaster(surface, {.rays = 0, .seed = 1}), UsageError);
+  CHECK_THROWS_AS(RayCaster(surface, {.rays = 65537, .seed = 1}), UsageError);
 }
 
 TEST_CASE("the estimated error of rays falls as rays are added", "[visibility]") {
   const Surface surface = build_surface(make_synth_map("sines", 64, Boundary::tile, 0.3));
-  const double few = estimate_ray_rmse(surface, {64, 1});
-  const double many = estimate_ray_rmse(surface, {1024, 1});
+  const double few = estimate_ray_rmse(surface, {.rays = 64, .seed = 1});
+  const double many = estimate_ray_rmse(surface, {.rays = 1024, .seed = 1});
   // A smooth region's boundary: the lattice converges like N^(-3/4), sixteen times the rays like eightfold.
   CHECK(few > 4 * many);
   CHECK(many < 4e-3);  // measured: 0.0028 on a map whose features are five texels wide

@@ -72,14 +72,14 @@ void for_receivers(const WalkTile& tile, Visit&& visit) {
 
 /// Of order 1, with a period of the map's size, and a little noise: nothing that links could like.
 TexelVector make_field(const Surface& surface) {
-  TexelVector x(static_cast<Eigen::Index>(surface.map.height.size()));
+  TexelVector x(surface.map.height.size());
   for (int row = 0; row < surface.height(); ++row) {
     for (int column = 0; column < surface.width(); ++column) {
       const double u = 2 * std::numbers::pi * column / surface.width();
       const double v = 2 * std::numbers::pi * row / surface.height();
-      const Eigen::Index texel = row * surface.width() + column;
-      x[texel] = 0.5 + 0.25 * std::sin(2 * u + v) + 0.2 * std::cos(3 * v - u) +
-                 0.1 * unit_real(scramble(static_cast<std::uint64_t>(texel)));
+      const std::size_t texel = surface.map.height.index(row, column);
+      x[texel] =
+          0.5 + 0.25 * std::sin(2 * u + v) + 0.2 * std::cos(3 * v - u) + 0.1 * unit_real(scramble(texel));
     }
   }
   return x;
@@ -119,7 +119,7 @@ TEST_CASE("blocks that are not asked for have no links, and the others the same 
           "[visibility][links]") {
   const auto [name, map] = ground(GENERATE(0, 3, 5, 7));
   const Surface surface = build_surface(map);
-  const WalkOptions options{8, 8, 0.3F};
+  const WalkOptions options{.azimuths = 8, .fineness = 8, .peak_share = 0.3F};
   INFO(name);
   const Azimuths azimuths = make_link_azimuths(surface, options);
   LightMips light(surface);
@@ -152,7 +152,7 @@ TEST_CASE("the link walk's lanes and its scalar twin tell the same light on ever
   const auto [name, map] = ground(GENERATE(range(0, 10)));
   const int fineness = GENERATE(8, 32);
   const Surface surface = build_surface(map);
-  const WalkOptions options{8, fineness, 0.3F};
+  const WalkOptions options{.azimuths = 8, .fineness = fineness, .peak_share = 0.3F};
   INFO(name << ", fineness " << fineness);
   const Azimuths azimuths = make_link_azimuths(surface, options);
   LightMips light(surface);
@@ -192,7 +192,7 @@ TEST_CASE("steps of links sum to what the sky's walk leaves of the hemisphere, t
   const auto [name, map] = ground(GENERATE(range(0, 10)));
   // So fine that all but the farthest things are looked at by each receiver, as links are walked; so many
   // azimuths that Σ S(m₀) = K to exp(−K asinh(1/kSteep)) = 10⁻⁵ where the sky's walk takes it to be K.
-  const WalkOptions options{24, 32, 0.3F};
+  const WalkOptions options{.azimuths = 24, .fineness = 32, .peak_share = 0.3F};
   const Surface surface = build_surface(map);
   INFO(name);
   const Azimuths azimuths = make_link_azimuths(surface, options);
@@ -221,7 +221,7 @@ TEST_CASE("entries name light nodes that exist, in rising order, near ones first
   const auto [name, map] = ground(GENERATE(range(0, 10)));
   const int fineness = GENERATE(8, 16, 32);
   const Surface surface = build_surface(map);
-  const WalkOptions options{6, fineness, 0.3F};
+  const WalkOptions options{.azimuths = 6, .fineness = fineness, .peak_share = 0.3F};
   const Azimuths azimuths = make_link_azimuths(surface, options);
   const LightMips light(surface);
   INFO(name << ", fineness " << fineness);
@@ -271,7 +271,7 @@ TEST_CASE("what a block holds for receivers outside the map does not matter", "[
   const auto [width, height] = GENERATE(std::pair{5, 7}, std::pair{71, 3}, std::pair{1, 1});
   const Boundary boundary = GENERATE(Boundary::tile, Boundary::open);
   const Surface surface = build_surface(make_rough_map(width, height, boundary, 0.2, 0, 7));
-  const WalkOptions options{8, 8, 0.3F};
+  const WalkOptions options{.azimuths = 8, .fineness = 8, .peak_share = 0.3F};
   const Azimuths azimuths = make_link_azimuths(surface, options);
   LightMips light(surface);
   light.fill(make_field(surface));
@@ -296,7 +296,7 @@ TEST_CASE("what a block holds for receivers outside the map does not matter", "[
 TEST_CASE("a flat map has no links, and its receivers keep their own light", "[visibility][links]") {
   const Boundary boundary = GENERATE(Boundary::tile, Boundary::open);
   const Surface surface = build_surface(make_map(70, 20, boundary, [](int, int) { return 0.4; }));
-  const WalkOptions options{8, 8, 0.3F};
+  const WalkOptions options{.azimuths = 8, .fineness = 8, .peak_share = 0.3F};
   const Azimuths azimuths = make_link_azimuths(surface, options);
   LightMips light(surface);
   const TexelVector field = make_field(surface);
@@ -309,7 +309,7 @@ TEST_CASE("a flat map has no links, and its receivers keep their own light", "[v
     for_receivers(tile, [&](std::size_t at) {
       const int row = tile.first_row + static_cast<int>(at) / WalkTile::kSide;
       const int column = tile.first_column + static_cast<int>(at) % WalkTile::kSide;
-      REQUIRE(means[at] == static_cast<float>(field[row * surface.width() + column]));
+      REQUIRE(means[at] == static_cast<float>(field[surface.map.height.index(row, column)]));
     });
   });
 }

@@ -72,7 +72,7 @@ TEST_CASE("the lanes and the scalar twin agree bit for bit", "[visibility]") {
   const double relief = GENERATE(0.01, 0.3, 20.0);
   const double missing = GENERATE(0.0, 0.3);
   const Surface surface = build_surface(make_rough_map(width, height, boundary, relief, missing, 3));
-  const RayCaster caster(surface, {61, 1});
+  const RayCaster caster(surface, {.rays = 61, .seed = 1});
   if (surface.cell_columns() == 0 || surface.cell_rows() == 0) return;
   RayWorkspace workspace(caster.rays());
   for (int row = 0; row < height; row += 3) {
@@ -97,7 +97,7 @@ TEST_CASE("sparing rays the walk changes none of their ends", "[visibility]") {
       GENERATE(64, 48, 37);  // blocks of the pyramid that fit a tile at all levels, at some, at none
   const char* shape = GENERATE("fbm", "brick", "steps");
   const Surface surface = build_surface(make_synth_map(shape, size, boundary, 0.2));
-  const RayCaster caster(surface, {200, 1});
+  const RayCaster caster(surface, {.rays = 200, .seed = 1});
   RayWorkspace workspace(caster.rays());
   int spared = 0;
   for (int texel = 0; texel < size * size; texel += 7) {
@@ -126,7 +126,7 @@ TEST_CASE("sparing rays the walk changes none of their ends", "[visibility]") {
 TEST_CASE("a ray ends where testing every facet says", "[visibility]") {
   const double relief = GENERATE(0.05, 0.5);
   const Surface surface = build_surface(make_rough_map(14, 11, Boundary::open, relief, 0, 8));
-  const RayCaster caster(surface, {127, 1});
+  const RayCaster caster(surface, {.rays = 127, .seed = 1});
   RayWorkspace workspace(caster.rays());
   int compared = 0;
   for (int row = 1; row < 10; row += 2) {
@@ -157,7 +157,7 @@ TEST_CASE("a ray below its own facet sees that facet's middle", "[visibility]") 
   // some sky.
   const Surface surface =
       build_surface(make_map(8, 8, Boundary::open, [](int, int column) { return column * column; }));
-  const RayCaster caster(surface, {1024, 1});
+  const RayCaster caster(surface, {.rays = 1024, .seed = 1});
   RayWorkspace workspace(caster.rays());
   ReceiverView view;
   caster.view(4, 3, workspace, view);
@@ -174,7 +174,7 @@ TEST_CASE("holes occlude nothing, and their edges stop rays from below", "[visib
     const int from_centre = std::max(std::abs(row - 4), std::abs(column - 4));
     return from_centre == 0 ? 0.0 : from_centre == 1 ? std::nan("") : 1.0;
   }));
-  const RayCaster caster(surface, {4096, 1});
+  const RayCaster caster(surface, {.rays = 4096, .seed = 1});
   RayWorkspace workspace(caster.rays());
   ReceiverView view;
   caster.view(4, 4, workspace, view);
@@ -190,7 +190,7 @@ TEST_CASE("a map of holes but for one sample sees only sky", "[visibility]") {
   Heightmap map = make_map(5, 5, Boundary::tile, [](int, int) { return std::nan(""); });
   map.height(2, 3) = 0.5F;
   const Surface surface = build_surface(map);
-  const RayCaster caster(surface, {64, 1});
+  const RayCaster caster(surface, {.rays = 64, .seed = 1});
   RayWorkspace workspace(caster.rays());
   ReceiverView view;
   caster.view(2, 3, workspace, view);

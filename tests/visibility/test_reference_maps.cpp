@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "heightlight/files.h"
 #include "shared_data.h"
 #include "test_maps.h"
 #include "visibility/exact_walk.h"
@@ -141,14 +142,14 @@ TEST_CASE("horizons of the lakes match topocalc's where those are complete", "[v
 /// them to the tangent plane: (1/π) Σ (2π/K) ∫_h^{π/2} (n·ω) cosθ dθ. Where a horizon is below the tangent
 /// plane it takes the negative cosines in between along.
 template <class Horizon>
-double tilted_sky_view_factor(const Eigen::Vector3f& normal, int azimuths, Horizon&& horizon_rad) {
+double tilted_sky_view_factor(const Vector3& normal, int azimuths, Horizon&& horizon_rad) {
   double sum = 0;
   for (int k = 0; k < azimuths; ++k) {
     const double azimuth = 2 * kPi * k / azimuths;
     const double h = std::max(0.0, horizon_rad(azimuth));
-    const double along = double{normal.x()} * std::cos(azimuth) + double{normal.y()} * std::sin(azimuth);
+    const double along = double{normal.x} * std::cos(azimuth) + double{normal.y} * std::sin(azimuth);
     const double up = std::cos(h) * std::cos(h);
-    sum += along * (kPi / 2 - h - std::sin(h) * std::cos(h)) + double{normal.z()} * up;
+    sum += along * (kPi / 2 - h - std::sin(h) * std::cos(h)) + double{normal.z} * up;
   }
   return sum / azimuths;
 }

@@ -8,6 +8,7 @@
 #include "base/gauss_legendre.h"
 #include "base/hash.h"
 #include "base/parallel.h"
+#include "base/texel_algebra.h"
 #include "heightlight/error.h"
 #include "visibility/exact_sky.h"
 #include "visibility/horizon_sky.h"
@@ -24,7 +25,7 @@ std::vector<float> sums_of(const Surface& surface, const WalkOptions& options, b
   std::vector<float> result;
   for_tiles(surface, options, [&](const WalkTile& tile) {
     const auto sums = std::make_unique<SkySums>();
-    sums->wanted = {true, true};
+    sums->wanted = {.first = true, .second = true};
     sums->keep_slope = keep_slope;
     std::vector<const SkySums::Values*> all{&sums->sky, &sums->full, &sums->solid, &sums->slope};
     for (const SkySums::Values& values : sums->first) all.push_back(&values);
@@ -65,7 +66,7 @@ TEST_CASE("moments: the sky walk's lanes and its scalar twin agree on every inst
           "[visibility][walk][moments]") {
   const std::string kind = GENERATE("smooth", "rough", "tall", "holes", "oblong", "texel");
   const Boundary boundary = GENERATE(Boundary::tile, Boundary::open);
-  const WalkOptions options{6, 8, 0.3F};
+  const WalkOptions options{.azimuths = 6, .fineness = 8, .peak_share = 0.3F};
   const Surface surface = test_surface(kind, boundary);
   const auto run = [&](LookFar look, WalkSky walk) {
     return sums_of(surface, options, true,
@@ -91,13 +92,13 @@ TEST_CASE("reach: the sky walk's lanes and its scalar twin agree on every instru
   const double distance = GENERATE(0.005, 0.06, 0.4, 2.0);
   const Falloff falloff = GENERATE(Falloff::none, Falloff::linear, Falloff::root);
   const bool keep_slope = falloff == Falloff::none && GENERATE(false, true);
-  const WalkOptions options{6, 8, 0.3F};
+  const WalkOptions options{.azimuths = 6, .fineness = 8, .peak_share = 0.3F};
   const Surface surface = test_surface(kind, boundary);
   const auto run = [&](auto walk) {
-    return sums_of(surface, options, keep_slope,
-                   [&](const WalkTile& tile, const AzimuthTable& azimuth, SkySums& sums) {
-                     walk(tile, azimuth, make_reach_table(azimuth, {distance, falloff}), sums);
-                   });
+    return sums_of(
+        surface, options, keep_slope, [&](const WalkTile& tile, const AzimuthTable& azimuth, SkySums& sums) {
+          walk(tile, azimuth, make_reach_table(azimuth, {.distance = distance, .falloff = falloff}), sums);
+        });
   };
   const std::vector<float> twin = run(walk_sky_within_scalar);
   for (const std::int64_t target : instruction_sets()) {
@@ -142,11 +143,14 @@ TEST_CASE("an open plane's moments are those of its hemisphere", "[visibility][m
                            [&](int row, int column) { return steepness * (0.8 * column - 0.6 * row); });
   map.spacing = {1, 1};
   const Surface surface = build_surface(std::move(map));
-  const SkyTask task{{true, true},
-                     GENERATE(std::optional<Reach>{}, std::optional<Reach>{{5.0, Falloff::root}})};
-  const HorizonSky sky = walk_horizon_sky(surface, build_height_mips(surface), {64, 32, 0.3F}, true, task);
-  const Eigen::Vector3f n = surface.normal(16, 20);
-  const Eigen::Vector3f first = sky.moments.first(16, 20);
+  const SkyTask task{.wanted = {.first = true, .second = true},
+                     .reach = GENERATE(std::optional<Reach>{},
+                                       std::optional<Reach>{{.distance = 5, .falloff = Falloff::root}})};
+  const HorizonSky sky =
+      walk_horizon_sky(surface, build_height_mips(surface),
+                       {.walk = {.azimuths = 64, .fineness = 32, .peak_share = 0.3F}}, task);
+  const Eigen::Vector3f n = as_eigen(surface.normal(16, 20));
+  const Eigen::Vector3f first = as_eigen(sky.moments.first(16, 20));
   CHECK((first - 2.0F / 3 * n).norm() < 2e-6);  // rounding of 64 azimuths
   // (1/π) ∫ ω ωᵀ cosθ dω = (1 + n nᵀ)/4 over a hemisphere
   const std::array<float, 5>& second = sky.moments.second(16, 20);
@@ -175,7 +179,7 @@ SkyError error_of(const HorizonSky& sky, const Surface& surface, int azimuths,
       error.sky += std::pow(sky_share - exact.sky_view_factor, 2);
       error.ambient +=
           std::pow(static_cast<double>(sky.ambient_occlusion(row, column)) - exact.ambient_occlusion, 2);
-      error.first += (sky.moments.first(row, column).cast<double>() - exact.first).squaredNorm();
+      error.first += (as_eigen(sky.moments.first(row, column)).cast<double>() - exact.first).squaredNorm();
       for (std::size_t k = 0; k < 5; ++k) {
         error.second +=
             std::pow(static_cast<double>(sky.moments.second(row, column)[k]) - exact.second[k], 2);
@@ -200,7 +204,9 @@ TEST_CASE("moments converge to those of exact profiles with the walk's fineness"
   SkyError before{1, 1, 1, 1};
   for (const int fineness : {8, 16, 32}) {
     const HorizonSky sky =
-        walk_horizon_sky(surface, build_height_mips(surface), {12, fineness, 0.3F}, true, {{true, true}, {}});
+        walk_horizon_sky(surface, build_height_mips(surface),
+                         {.walk = {.azimuths = 12, .fineness = fineness, .peak_share = 0.3F}},
+                         {.wanted = {.first = true, .second = true}});
     const SkyError error = error_of(sky, surface, 12, {}, 8);
     INFO(shape << ", fineness " << fineness << ": A " << error.sky << ", first " << error.first << ", second "
                << error.second);
@@ -219,9 +225,11 @@ TEST_CASE("a limited reach converges to that of exact profiles", "[visibility][r
   const Falloff falloff = GENERATE(Falloff::none, Falloff::linear, Falloff::root);
   const double distance = GENERATE(0.03, 0.3);  // 3 and 29 texels
   const Surface surface = build_surface(make_synth_map(shape.c_str(), 96, boundary, 0.15));
-  const std::optional<Reach> reach = Reach{distance, falloff};
-  const SkyTask task{{true, true}, reach};
-  const HorizonSky sky = walk_horizon_sky(surface, build_height_mips(surface), {16, 64, 0.3F}, true, task);
+  const std::optional<Reach> reach = Reach{.distance = distance, .falloff = falloff};
+  const SkyTask task{.wanted = {.first = true, .second = true}, .reach = reach};
+  const HorizonSky sky =
+      walk_horizon_sky(surface, build_height_mips(surface),
+                       {.walk = {.azimuths = 16, .fineness = 64, .peak_share = 0.3F}}, task);
   const SkyError error = error_of(sky, surface, 16, reach, 8);
   INFO(shape << ", " << to_string(boundary) << ", reach " << distance << ", falloff "
              << static_cast<int>(falloff) << ": A " << error.sky << ", alpha " << error.ambient << ", first "
@@ -238,9 +246,10 @@ TEST_CASE("a limited reach converges to that of exact profiles", "[visibility][r
 TEST_CASE("a reach beyond everything is no reach", "[visibility][reach]") {
   const Surface surface = build_surface(make_synth_map("brick", 64, Boundary::open, 0.2));
   const HeightMips mips = build_height_mips(surface);
-  const WalkOptions options{16, 32, 0.3F};
-  const HorizonSky whole = walk_horizon_sky(surface, mips, options, true);
-  const HorizonSky far = walk_horizon_sky(surface, mips, options, true, {{}, Reach{50, Falloff::none}});
+  const SkyPlan plan{.walk = {.azimuths = 16, .fineness = 32, .peak_share = 0.3F}};
+  const HorizonSky whole = walk_horizon_sky(surface, mips, plan);
+  const HorizonSky far =
+      walk_horizon_sky(surface, mips, plan, {.reach = Reach{.distance = 50, .falloff = Falloff::none}});
   double worst = 0;
   for (std::size_t i = 0; i < whole.sky_view_factor.size(); ++i) {
     worst = std::max(worst, std::fabs(static_cast<double>(whole.sky_view_factor.values[i]) -
@@ -253,35 +262,38 @@ TEST_CASE("falloffs rise in order: none, linear, root, and with the reach all fa
   const Surface surface = build_surface(make_synth_map("cobbles", 64, Boundary::tile, 0.2));
   const HeightMips mips = build_height_mips(surface);
   const auto mean = [&](const std::optional<Reach>& reach) {
-    const HorizonSky sky = walk_horizon_sky(surface, mips, {16, 16, 0.3F}, true, {{}, reach});
+    const HorizonSky sky = walk_horizon_sky(
+        surface, mips, {.walk = {.azimuths = 16, .fineness = 16, .peak_share = 0.3F}}, {.reach = reach});
     double sum = 0;
     for (const float value : sky.sky_view_factor.values) sum += static_cast<double>(value);
     return sum / static_cast<double>(sky.sky_view_factor.size());
   };
-  CHECK(mean({}) < mean(Reach{0.2, Falloff::none}));
-  CHECK(mean(Reach{0.2, Falloff::none}) < mean(Reach{0.2, Falloff::linear}));
-  CHECK(mean(Reach{0.2, Falloff::linear}) < mean(Reach{0.2, Falloff::root}));
-  CHECK(mean(Reach{0.2, Falloff::root}) < mean(Reach{0.02, Falloff::root}));
+  CHECK(mean({}) < mean(Reach{.distance = 0.2, .falloff = Falloff::none}));
+  CHECK(mean(Reach{.distance = 0.2, .falloff = Falloff::none}) <
+        mean(Reach{.distance = 0.2, .falloff = Falloff::linear}));
+  CHECK(mean(Reach{.distance = 0.2, .falloff = Falloff::linear}) <
+        mean(Reach{.distance = 0.2, .falloff = Falloff::root}));
+  CHECK(mean(Reach{.distance = 0.2, .falloff = Falloff::root}) <
+        mean(Reach{.distance = 0.02, .falloff = Falloff::root}));
   for (const double bad : {0.0, -1.0, std::nan(""), HUGE_VAL})
-    CHECK_THROWS_AS(check_reach({bad}), UsageError);
+    CHECK_THROWS_AS(check_reach({.distance = bad}), UsageError);
 }
 
 TEST_CASE("horizons stand where exact profiles have them", "[visibility][horizons]") {
   const Boundary boundary = GENERATE(Boundary::tile, Boundary::open);
   const Surface surface = build_surface(make_synth_map("fbm", 96, boundary, 0.3));
   const std::vector<double> azimuths{0, 1.0, std::acos(-1) / 2, std::acos(-1), -2.0};
-  const std::vector<Map> horizons =
-      walk_horizons(surface, build_height_mips(surface), {2, 64, 0.3F}, azimuths, {}, true);
+  const std::vector<Map> horizons = walk_horizons(
+      surface, build_height_mips(surface), {.azimuths = 2, .fineness = 64, .peak_share = 0.3F}, azimuths, {});
   const ExactWalker walker(surface, 4);
   double squares = 0;
   int count = 0;
   for (std::size_t k = 0; k < azimuths.size(); ++k) {
     for (int row = 0; row < 96; row += 5) {
       for (int column = 0; column < 96; column += 3) {
-        const Eigen::Vector3f n = surface.normal(row, column);
-        const double along = static_cast<double>(n.x()) * std::cos(azimuths[k]) +
-                             static_cast<double>(n.y()) * std::sin(azimuths[k]);
-        const double tangent = std::atan2(-along, static_cast<double>(n.z()));
+        const Vector3 n = surface.normal(row, column);
+        const double along = double{n.x} * std::cos(azimuths[k]) + double{n.y} * std::sin(azimuths[k]);
+        const double tangent = std::atan2(-along, double{n.z});
         const double exact = std::max(tangent, walker.horizon_rad(row, column, azimuths[k]));
         squares += std::pow(static_cast<double>(horizons[k](row, column)) - exact, 2);
         ++count;

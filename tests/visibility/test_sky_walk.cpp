@@ -13,7 +13,7 @@ namespace heightlight {
 namespace {
 
 HorizonSky walk(const Surface& surface, const WalkOptions& options) {
-  return walk_horizon_sky(surface, build_height_mips(surface), options, true);
+  return walk_horizon_sky(surface, build_height_mips(surface), {.walk = options});
 }
 
 struct Terrain {
@@ -72,7 +72,7 @@ TEST_CASE("the sky walk's lanes and its scalar twin agree on every instruction s
   const Boundary boundary = GENERATE(Boundary::tile, Boundary::open);
   const int fineness = GENERATE(8, 32);
   const Surface surface = make_surface(terrain, boundary);
-  const WalkOptions options{6, fineness, 0.3F};
+  const WalkOptions options{.azimuths = 6, .fineness = fineness, .peak_share = 0.3F};
   const WalkedSky twin = walk_sky_with(look_far_scalar, walk_sky_scalar, surface, options);
   for (const std::int64_t target : instruction_sets()) {
     const InstructionSet use(target);
@@ -111,7 +111,8 @@ TEST_CASE("with its fineness the walk converges to the exact one along the same 
   double sky_before = 1;
   double ambient_before = 1;
   for (const int fineness : {8, 16, 32, 64}) {
-    const HorizonSky walked = walk(surface, {kAzimuths, fineness, 0.3F});
+    const HorizonSky walked =
+        walk(surface, {.azimuths = kAzimuths, .fineness = fineness, .peak_share = 0.3F});
     double sky = 0;
     double ambient = 0;
     for (std::size_t i = 0; i < exact.size(); ++i) {
@@ -138,8 +139,8 @@ TEST_CASE("the walk finds a flat map open to the last bit", "[visibility][walk]"
   const Boundary boundary = GENERATE(Boundary::tile, Boundary::open);
   const int fineness = GENERATE(8, 32);
   const double level = GENERATE(0.0, 0.7, 1e-20, 4321.987);
-  const HorizonSky sky =
-      walk(build_surface(make_map(70, 33, boundary, [&](int, int) { return level; })), {6, fineness, 0.3F});
+  const HorizonSky sky = walk(build_surface(make_map(70, 33, boundary, [&](int, int) { return level; })),
+                              {.azimuths = 6, .fineness = fineness, .peak_share = 0.3F});
   for (std::size_t i = 0; i < sky.sky_view_factor.size(); ++i) {
     REQUIRE(sky.sky_view_factor.values[i] == 1);
     REQUIRE(sky.ambient_occlusion.values[i] == 1);
@@ -169,7 +170,8 @@ Shortfall plane_shortfall(double steepness, int width, int height, const WalkOpt
 TEST_CASE("the walk finds an open tilted plane open, also below the horizontal", "[visibility][walk]") {
   const double steepness = GENERATE(0.3, 2.5);  // below and above kSteep
   // As far as samples lie on the surface itself: rounding, 10⁻⁷ in slopes and sums.
-  const Shortfall near = plane_shortfall(steepness, 35, 37, {32, 48, 0.3F});
+  const Shortfall near =
+      plane_shortfall(steepness, 35, 37, {.azimuths = 32, .fineness = 48, .peak_share = 0.3F});
   CHECK(near.sky < 1e-6);
   CHECK(near.ambient < 3e-6);
   // Farther away, discretisation: the middle of a block lies up to half a block beside the line of sight in
@@ -178,7 +180,8 @@ TEST_CASE("the walk finds an open tilted plane open, also below the horizontal",
   // steepness above the plane, 1.5 ν texels or more away: 0.2 steepness/ν.
   for (const int fineness : {8, 16, 32}) {
     const double in_slope = steepness / fineness;
-    const Shortfall far = plane_shortfall(steepness, 150, 130, {32, fineness, 0.3F});
+    const Shortfall far =
+        plane_shortfall(steepness, 150, 130, {.azimuths = 32, .fineness = fineness, .peak_share = 0.3F});
     CHECK(far.ambient < in_slope);
     CHECK(far.sky < in_slope * in_slope);
   }
@@ -200,7 +203,7 @@ TEST_CASE("small relief on a large offset is walked as without it", "[visibility
   });
   Heightmap raised = map;
   for (float& height : raised.height.values) height += 512;
-  const WalkOptions options{12, 8, 0.3F};
+  const WalkOptions options{.azimuths = 12, .fineness = 8, .peak_share = 0.3F};
   const HorizonSky low = walk(build_surface(map), options);
   const HorizonSky high = walk(build_surface(raised), options);
   // rounding: the means of blocks are stored to 512 ε = 3e-5, a thousandth of the relief; seen at least ν
@@ -222,7 +225,7 @@ TEST_CASE("scaling the world changes nothing: by a power of two not one bit", "[
   Heightmap scaled = map;
   for (float& height : scaled.height.values) height = static_cast<float>(double{height} * factor);
   scaled.spacing = {map.spacing.x * factor, map.spacing.y * factor};
-  const WalkOptions options{12, 8, 0.3F};
+  const WalkOptions options{.azimuths = 12, .fineness = 8, .peak_share = 0.3F};
   const HorizonSky here = walk(build_surface(map), options);
   const HorizonSky there = walk(build_surface(scaled), options);
   CHECK(largest_difference(here.sky_view_factor, there.sky_view_factor) <= tolerance);
@@ -233,7 +236,7 @@ TEST_CASE("missing samples are NaN in both maps, and the others have a share of 
   const Boundary boundary = GENERATE(Boundary::tile, Boundary::open);
   const double relief = GENERATE(0.1, 100.0);
   const Surface surface = build_surface(make_rough_map(67, 71, boundary, relief, 0.3, 2));
-  const HorizonSky sky = walk(surface, {16, 8, 0.3F});
+  const HorizonSky sky = walk(surface, {.azimuths = 16, .fineness = 8, .peak_share = 0.3F});
   for (std::size_t i = 0; i < sky.sky_view_factor.size(); ++i) {
     const bool missing = std::isnan(surface.map.height.values[i]);
     REQUIRE(std::isnan(sky.sky_view_factor.values[i]) == missing);
@@ -255,7 +258,7 @@ TEST_CASE("holes occlude nothing, and what they hold means nothing", "[visibilit
   };
   const Surface holes = build_surface(make_map(kSize, kSize, Boundary::open, height_at));
   const ExactWalker walker(holes, 64);
-  const HorizonSky sky = walk(holes, {64, 64, 0.3F});
+  const HorizonSky sky = walk(holes, {.azimuths = 64, .fineness = 64, .peak_share = 0.3F});
   SliceView view;
   for (int column = 0; column < kSize; column += 2) {
     walker.view(20, column, view);

@@ -93,11 +93,7 @@ HWY_INLINE void look_around(const BounceSlicePass& pass, int row, SeenSums& sums
 }
 
 void gather_slices_lanes(const BounceSlicePass& pass, int row, SeenSums& sums) {
-  if (pass.tables.taps == 1) {
-    look_around<1>(pass, row, sums);
-  } else {
-    look_around<3>(pass, row, sums);
-  }
+  with_taps(pass.tables.taps, [&](auto taps) { look_around<taps()>(pass, row, sums); });
 }
 
 }  // namespace heightlight::HWY_NAMESPACE

@@ -112,11 +112,7 @@ HWY_INLINE void look_around(const GtaoPass& pass, int row, GtaoSums& sums) {
 }
 
 void gtao_lanes(const GtaoPass& pass, int row, GtaoSums& sums) {
-  if (pass.tables.taps == 1) {
-    look_around<1>(pass, row, sums);
-  } else {
-    look_around<3>(pass, row, sums);
-  }
+  with_taps(pass.tables.taps, [&](auto taps) { look_around<taps()>(pass, row, sums); });
 }
 
 }  // namespace heightlight::HWY_NAMESPACE

@@ -86,11 +86,7 @@ HWY_INLINE void look_around(const HbaoPass& pass, int row, std::vector<float>& o
 }
 
 void hbao_lanes(const HbaoPass& pass, int row, std::vector<float>& open) {
-  if (pass.tables.taps == 1) {
-    look_around<1>(pass, row, open);
-  } else {
-    look_around<3>(pass, row, open);
-  }
+  with_taps(pass.tables.taps, [&](auto taps) { look_around<taps()>(pass, row, open); });
 }
 
 }  // namespace heightlight::HWY_NAMESPACE

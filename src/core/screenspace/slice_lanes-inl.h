@@ -12,6 +12,7 @@
 #include <hwy/highway.h>
 
 #include <array>
+#include <type_traits>
 
 #include "base/elevation-inl.h"
 #include "screenspace/slice_samples.h"
@@ -105,6 +106,16 @@ HWY_INLINE void for_receivers(const DepthBuffer& depth, int row, const Body& bod
   const int step = DepthBuffer::kPhases * static_cast<int>(kBunch * hn::Lanes(kF));
   for (int phase = 0; phase < DepthBuffer::kPhases; ++phase) {
     for (int column = phase; column < depth.width; column += step) body(load_receivers(depth, row, column));
+  }
+}
+
+/// Calls look(n) with the number of depths that a sample reads as a constant: one, or the three of a triangle.
+template <class Look>
+HWY_INLINE void with_taps(int taps, Look&& look) {
+  if (taps == 1) {
+    look(std::integral_constant<int, 1>());
+  } else {
+    look(std::integral_constant<int, 3>());
   }
 }
 

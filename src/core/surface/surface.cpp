@@ -6,6 +6,7 @@
 
 #include "base/parallel.h"
 #include "base/texel_algebra.h"
+#include "heightlight/error.h"
 
 namespace heightlight {
 namespace {
@@ -44,9 +45,23 @@ Vector3 vertex_normal(const Heightmap& map, int row, int column) {
   return to_vector3(Eigen::Vector3d(-dx, -dy, 1).normalized().cast<float>());
 }
 
+void check_heightmap(const Heightmap& map) {
+  const Image<float>& h = map.height;
+  const bool whole = h.width >= 1 && h.height >= 1 &&
+                     h.size() == static_cast<std::size_t>(h.width) * static_cast<std::size_t>(h.height);
+  if (!whole) throw UsageError("height", "", "must be a rectangle of at least one sample");
+  for (const double spacing : {map.spacing.x, map.spacing.y}) {
+    if (!(spacing > 0) || !std::isfinite(spacing)) throw UsageError("texel", "", "must be a positive number");
+  }
+  if (std::any_of(h.values.begin(), h.values.end(), [](float value) { return std::isinf(value); })) {
+    throw UsageError("height", "", "must be finite; NaN is a missing sample");
+  }
+}
+
 }  // namespace
 
 Surface build_surface(Heightmap map) {
+  check_heightmap(map);
   Surface surface;
   surface.map = std::move(map);
   const Image<float>& h = surface.map.height;

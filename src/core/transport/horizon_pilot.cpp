@@ -69,7 +69,7 @@ double root_mean_square(const std::vector<double>& errors) {
 }
 
 HorizonPilot::HorizonPilot(const Surface& surface, std::uint64_t seed, const Watch& watch)
-    : surface_(surface), watch_(watch), mips_(build_height_mips(surface)) {
+    : surface_(surface), trial_watch_{.tell = {}, .stopped = watch.stopped}, mips_(build_height_mips(surface)) {
   const std::vector<TileFrame> strips = cut_strips(surface);
   const auto count = static_cast<std::int64_t>(strips.size());
   const std::int64_t wanted = std::min(kStrips, count);
@@ -116,7 +116,7 @@ std::vector<float> HorizonPilot::walk_sky_of(const WalkOptions& options, EvenWal
     even->sky.resize(result.size());
     even->shares.resize(frames_.size() * kBlocks);
   }
-  Progress progress("pilot", static_cast<std::int64_t>(frames_.size()), watch_);
+  Progress progress("trial", static_cast<std::int64_t>(frames_.size()), trial_watch_);
   parallel_for(
       static_cast<std::int64_t>(frames_.size()),
       [&](std::int64_t i) {
@@ -248,7 +248,7 @@ double HorizonPilot::link_error(const WalkOptions& options, const LightMips& lig
   const std::vector<LinkAzimuth> azimuths = make_link_azimuths(surface_, options);
   const int rings = ring_count(surface_, options);
   std::vector<float> seen(frames_.size() * WalkTile::kTexels);
-  Progress progress("pilot", static_cast<std::int64_t>(frames_.size()), watch_);
+  Progress progress("trial", static_cast<std::int64_t>(frames_.size()), trial_watch_);
   parallel_for(
       static_cast<std::int64_t>(frames_.size()),
       [&](std::int64_t i) {

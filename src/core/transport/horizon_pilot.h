@@ -28,7 +28,7 @@ struct SamplingError {
 /// them some that are walked exactly too.
 class HorizonPilot {
  public:
-  /// `surface` and `watch` must outlive it.
+  /// `surface` must outlive it. The watch hears of the exact walks, and may end trials too.
   HorizonPilot(const Surface& surface, std::uint64_t seed, const Watch& watch);
 
   bool empty() const { return exact_.empty(); }
@@ -98,7 +98,7 @@ class HorizonPilot {
   const std::vector<float>& many_like(const WalkOptions& options);
 
   const Surface& surface_;
-  const Watch& watch_;
+  Watch trial_watch_;  ///< is told nothing, and asked whether to go on
   HeightMips mips_;
   std::vector<TileFrame> frames_;  ///< the strips
   std::vector<ExactReceiver> exact_;

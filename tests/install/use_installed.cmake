@@ -1,0 +1,100 @@
+cmake_minimum_required(VERSION 3.25)
+
+# Installs the build into a folder of its own and uses it as a stranger would. Stops with an error at the first fault.
+set(prefix ${BUILD}/tests/install/prefix)
+set(examples ${BUILD}/tests/install/examples)
+file(REMOVE_RECURSE ${prefix} ${examples})
+
+# Runs a command; what it printed is `output`.
+function(run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE printed ERROR_VARIABLE messages)
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "${ARGN}\n${printed}${messages}")
+  endif()
+  set(output "${printed}" PARENT_SCOPE)
+endfunction()
+
+# `output` has, or has not, what the expression says.
+function(expect expression)
+  if(NOT output MATCHES "${expression}")
+    message(FATAL_ERROR "no '${expression}' in:\n${output}")
+  endif()
+endfunction()
+function(forbid expression)
+  if(output MATCHES "${expression}")
+    message(FATAL_ERROR "'${CMAKE_MATCH_0}' is there, which '${expression}' forbids")
+  endif()
+endfunction()
+
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
+run(${CMAKE_COMMAND} -S ${SOURCE}/examples -B ${examples} -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_BUILD_TYPE=Release
+    -DCMAKE_CXX_COMPILER=${COMPILER})
+run(${CMAKE_COMMAND} --build ${examples} --parallel 2)
+
+# The first is a program of at most 15 lines of its own, and needs no more than it says.
+file(STRINGS ${SOURCE}/examples/sky_of_an_array.cpp lines REGEX "[a-z]")
+list(FILTER lines EXCLUDE REGEX "^(//|#include|int main|  using)")
+list(LENGTH lines count)
+if(count GREATER 15)
+  message(FATAL_ERROR "sky_of_an_array.cpp has ${count} lines of its own")
+endif()
+run(${examples}/sky_of_an_array)
+expect("A beside the wall: 0\\.[0-9]+\nRMSE against exact walks: [0-9.]+e-0[3-9]\n")
+run(ldd ${examples}/sky_of_an_array)
+string(REGEX MATCHALL "[a-z_+]+[-0-9a-z_+.]*\\.so" libraries "${output}")
+list(REMOVE_DUPLICATES libraries)
+foreach(library ${libraries})
+  if(NOT library MATCHES "^(linux-vdso|libc|libm|libstdc\\+\\+|libgcc_s|libgomp|libomp|libhwy|ld-linux-x86-64)\\.so$")
+    message(FATAL_ERROR "sky_of_an_array needs ${library}")
+  endif()
+endforeach()
+
+run(grep -o -w -m 1 avx2 /proc/cpuinfo)  # which the second is built for
+run(${examples}/total_in_colour)
+expect("done: check of the total")
+expect("mean E/pi 0\\.[0-9]+")
+run(${examples}/judge_a_form ${SOURCE}/heightmaps/cobbles_256.png)
+expect("uniform_neighbourhood +0\\.0[0-9]+")
+execute_process(COMMAND ${examples}/judge_a_form ${SOURCE}/README.md RESULT_VARIABLE result ERROR_VARIABLE output)
+if(NOT result EQUAL 1)
+  message(FATAL_ERROR "judge_a_form takes README.md for a heightmap")
+endif()
+expect("README.md: holds text")
+
+run(${prefix}/bin/heightlight --version)
+expect("^[0-9]+\\.[0-9]+\\.[0-9]+")
+
+# The core alone: no image library, no plots, no JSON, no command line; and no names of stb's anywhere.
+file(GLOB_RECURSE core ${prefix}/*/libheightlight_core.a)
+run(${NM} -C ${core})
+forbid("stbi|OpenImageIO|OIIO|nlohmann|CLI::|gnuplot| Eigen::")
+file(GLOB_RECURSE files ${prefix}/*/libheightlight_files.a)
+run(${NM} -C -g --defined-only ${files})
+forbid("stbi")
+
+# pkg-config and the licence.
+file(GLOB_RECURSE pc ${prefix}/*/heightlight-core.pc)
+get_filename_component(pc_folder ${pc} DIRECTORY)
+run(${CMAKE_COMMAND} -E env PKG_CONFIG_PATH=${pc_folder} pkg-config --cflags --libs heightlight-files)
+expect("-lheightlight_files.*-lheightlight_core")
+file(GLOB_RECURSE licence ${prefix}/*/LICENSE)
+if(NOT licence)
+  message(FATAL_ERROR "no licence is installed")
+endif()
+
+# As a part of another project, which has none of the command line's packages.
+set(whole ${BUILD}/tests/install/whole)
+file(WRITE ${whole}/CMakeLists.txt "cmake_minimum_required(VERSION 3.25)
+project(whole LANGUAGES CXX)
+foreach(package CLI11 fmt nlohmann_json Catch2 OpenSSL)
+  set(CMAKE_DISABLE_FIND_PACKAGE_\${package} TRUE)
+endforeach()
+set(HEIGHTLIGHT_FILES OFF)
+add_subdirectory(${SOURCE} heightlight)
+add_executable(program ${SOURCE}/examples/sky_of_an_array.cpp)
+target_link_libraries(program PRIVATE heightlight::core)
+")
+run(${CMAKE_COMMAND} -S ${whole} -B ${whole}/build -DCMAKE_CXX_COMPILER=${COMPILER})
+run(${CMAKE_COMMAND} --build ${whole}/build --target help)
+expect("heightlight_core")
+forbid("heightlight_cli|heightlight_tests|heightlight_files")
