@@ -25,7 +25,8 @@ struct Surface {
 
 /// Builds the surface. Normals are those of the central-difference gradient: wrapped when tiling, one-sided
 /// at open edges and beside missing samples, level where a sample has no neighbour along an axis. Heights are
-/// not changed. Throws UsageError for heights that are no rectangle or infinite, and for a spacing that is not positive.
+/// not changed. Throws UsageError for heights that are no rectangle or infinite, and for a spacing that is
+/// not positive.
 Surface build_surface(Heightmap map);
 
 }  // namespace heightlight

@@ -70,7 +70,7 @@ inline std::vector<std::string> bake_map(const Heightmap& map, const BakeOptions
                                          const std::filesystem::path& folder) {
   LoadedHeightmap loaded;
   loaded.map = map;
-  return bake_material(std::move(loaded), "m.exr", options, folder, "m");
+  return bake_material(std::move(loaded), {"m.exr"}, options, folder, "m");
 }
 
 }  // namespace heightlight

@@ -11,6 +11,7 @@
 #include "base/hash.h"
 #include "base/parallel.h"
 #include "heightlight/error.h"
+#include "remedy.h"
 #include "test_maps.h"
 
 namespace heightlight {
@@ -232,10 +233,10 @@ TEST_CASE("an albedo map per channel is three maps of grey, bit for bit", "[bake
   options.depth = TextureDepth::real;
   options.albedo.constant.clear();
   for (int c = 0; c < 3; ++c) {
-    TexelVector albedo(64 * 64);
-    for (int i = 0; i < 64 * 64; ++i)
+    TexelVector albedo(std::size_t{64} * 64);
+    for (std::size_t i = 0; i < albedo.size(); ++i)
       albedo[i] = 0.2 + 0.6 * unit_real(hash_combine(
-                                  5, static_cast<std::uint64_t>(3 * (i / 64 / 8 * 8 + i % 64 / 8) + c)));
+                                  5, 3 * (i / 64 / 8 * 8 + i % 64 / 8) + static_cast<std::uint64_t>(c)));
     options.albedo.varying.push_back(albedo);
   }
   bake_map(map, options, folder / "colour");
@@ -256,10 +257,9 @@ TEST_CASE("files are the same for any number of threads and from run to run", "[
   options.maps = all_maps();
   options.reach = GENERATE(std::optional<Reach>{}, std::optional<Reach>{{0.1, Falloff::linear}});
   for (const int threads : {1, 2, 7}) {
-    set_thread_count(threads);
+    const ThreadScope scope(threads);
     bake_map(make_synth_map("brick", 80, Boundary::tile, 0.1), options, folder / std::to_string(threads));
   }
-  set_thread_count(0);
   for (const std::string& file : baked_files("m", options)) {
     if (file.ends_with(".json")) continue;
     INFO(file);
@@ -319,7 +319,7 @@ TEST_CASE("terraces of 8-bit heights are warned of, not blurred", "[bake]") {
   loaded.facts.levels = 200;
   BakeOptions options;
   options.maps = {MaterialMap::height};
-  const std::vector<std::string> warnings = bake_material(loaded, "m.png", options, folder.path(), "m");
+  const std::vector<std::string> warnings = bake_material(loaded, {"m.png"}, options, folder.path(), "m");
   REQUIRE(warnings.size() == 1);
   CHECK(warnings[0].find("terraces") != std::string::npos);
   CHECK(warnings[0].find("16-bit") != std::string::npos);
@@ -344,8 +344,10 @@ TEST_CASE("options that contradict each other are refused before any work, and t
   for (const BakeOptions& options : bad) CHECK_THROWS_AS(check_bake_options(options), UsageError);
   const ScratchFolder folder;
   good.memory = 1000;
-  CHECK_THROWS_WITH(bake_map(make_synth_map("fbm", 32, Boundary::tile, 0.1), good, folder.path()),
-                    Catch::Contains("--memory"));
+  const auto bake = [&] { bake_map(make_synth_map("fbm", 32, Boundary::tile, 0.1), good, folder.path()); };
+  CHECK_THROWS_AS(bake(), MemoryError);
+  CHECK_THROWS_WITH(bake(), Catch::Contains("32 × 32") && Catch::Contains("of memory allowed"));
+  CHECK(remedy_of(bake) == "memory");
   CHECK(folder.entry_count() == 0);
 }
 

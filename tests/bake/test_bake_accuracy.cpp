@@ -9,6 +9,8 @@
 #include "bake/material.h"
 #include "base/hash.h"
 #include "base/parallel.h"
+#include "base/texel_algebra.h"
+#include "heightlight/forms.h"
 #include "shared_data.h"
 #include "test_maps.h"
 #include "visibility/ray_caster.h"
@@ -24,7 +26,7 @@ constexpr double kDegrees = 180 / std::numbers::pi;
 Material find(const Surface& surface, std::vector<MaterialMap> maps) {
   BakeOptions options;
   options.maps = std::move(maps);
-  return find_material(surface, options, "the map");
+  return find_material(surface, options);
 }
 
 /// What rays see of the sky from one receiver.
@@ -75,7 +77,7 @@ TEST_CASE("bent normals and harmonics at the default error against 65536 rays", 
   constexpr int kReceivers = 192;
   const Surface surface = surface_of(name);
   const Material material = find(surface, {MaterialMap::sh});
-  const RayCaster caster(surface, {65536, 7});
+  const RayCaster caster(surface, {.rays = 65536, .seed = 7});
   std::vector<double> angles(kReceivers);
   std::vector<double> brighter(kReceivers);
   // A sky of order 2 that is bright on one side, and positive everywhere.
@@ -87,13 +89,13 @@ TEST_CASE("bent normals and harmonics at the default error against 65536 rays", 
     const int row = static_cast<int>(texel) / surface.width();
     const int column = static_cast<int>(texel) % surface.width();
     const RaySky truth = cast_sky(caster, surface, row, column);
-    const SkyMoments& moments = material.sky.moments;
-    const Eigen::Vector3d ours = moments.first.values[texel].cast<double>();
+    const SkyMoments& moments = material.results.moments;
+    const Eigen::Vector3d ours = as_eigen(moments.first.values[texel]).cast<double>();
     angles[static_cast<std::size_t>(i)] = std::atan2(ours.cross(truth.first).norm(), ours.dot(truth.first));
     std::array<double, 5> second{};
     for (std::size_t k = 0; k < 5; ++k) second[k] = static_cast<double>(moments.second.values[texel][k]);
     const Harmonics found =
-        harmonics_of_moments(static_cast<double>(material.sky.sky_view_factor.values[texel]), ours, second);
+        harmonics_of_moments(static_cast<double>(material.results.sky_view_factor.values[texel]), ours, second);
     brighter[static_cast<std::size_t>(i)] = dot(found, sky) - dot(truth.harmonics, sky);
   });
   double angle_squares = 0;
@@ -119,10 +121,10 @@ TEST_CASE("at the bottom of a spherical pit both cones reach the rim", "[bake][s
   const Material material = find(surface, {MaterialMap::bent_cone, MaterialMap::ao});
   const std::size_t bottom = surface.map.height.index(128, 128);
   const double rim = std::atan2(0.35, relief - static_cast<double>(surface.map.height.values[bottom]));
-  const auto sky = static_cast<double>(material.sky.sky_view_factor.values[bottom]);
+  const auto sky = static_cast<double>(material.results.sky_view_factor.values[bottom]);
   // discretisation: the rim is known to a texel, 0.004 of 0.35, and the walk to 0.002 of A
   CHECK(cone_of_openness(sky) == Approx(rim).margin(0.01));
-  CHECK(cone_of_spread(sky, material.sky.moments.first.values[bottom]) == Approx(rim).margin(0.02));
+  CHECK(cone_of_spread(sky, material.results.moments.first.values[bottom]) == Approx(rim).margin(0.02));
   CHECK(std::sin(rim) * std::sin(rim) == Approx(sky).margin(0.01));
 }
 
@@ -130,11 +132,14 @@ TEST_CASE("the error that is reported is the error that there is", "[bake][slow]
   const Surface surface = build_surface(make_synth_map("brick", 128, Boundary::tile, 0.15));
   const Material material =
       find(surface, {MaterialMap::bent_normal, MaterialMap::multibounce, MaterialMap::ao_n});
-  REQUIRE(material.sky_check);
-  CHECK(material.sky_check->receivers == 256);
-  CHECK(material.sky_check->sky_view_factor < 0.003);  // 0.002 wanted, of 256 receivers
-  CHECK(*material.sky_check->bent_normal_rad * kDegrees < 0.4);
-  CHECK(material.total_check->total_rmse < 0.003);
+  const Evidence& evidence = material.results.evidence;
+  REQUIRE(evidence.sky_check);
+  CHECK(evidence.sky_check->receivers == 256);
+  CHECK(evidence.sky_check->sky_view_factor < 0.003);  // 0.002 wanted, of 256 receivers
+  REQUIRE(evidence.sky_check->bent_normal_rad);
+  CHECK(*evidence.sky_check->bent_normal_rad * kDegrees < 0.4);
+  REQUIRE_FALSE(evidence.total_checks.empty());
+  CHECK(evidence.total_checks[0].total_rmse < 0.003);
   for (const ModelError& error : material.model_errors) {
     INFO("albedo " << error.albedo << ": " << error.rmse << ", " << error.rmse_16_bits << ", "
                    << error.rmse_8_bits);

@@ -11,6 +11,7 @@
 #include "bake/texel_encoding.h"
 #include "base/gauss_legendre.h"
 #include "base/hash.h"
+#include "heightlight/closed_forms.h"
 #include "visibility/sky_harmonics.h"
 
 namespace heightlight {
@@ -22,14 +23,14 @@ TEST_CASE("both cones of a cap are the cap", "[bake]") {
   for (const double beta : {0.01, 0.3, 0.8, 1.3, kPi / 2}) {
     const double u = std::cos(beta);
     const double openness = 1 - u * u;
-    const Eigen::Vector3f first(0, 0, static_cast<float>(2.0 / 3 * (1 - u * u * u)));
+    const Vector3 first{0, 0, static_cast<float>(2.0 / 3 * (1 - u * u * u))};
     CHECK(cone_of_openness(openness) == Approx(beta).margin(1e-12));
     CHECK(cone_of_spread(openness, first) == Approx(beta).margin(2e-3));  // rounding of `first`, near u = 1
   }
   CHECK(cone_of_openness(0) == 0);
-  CHECK(cone_of_spread(0, Eigen::Vector3f::Zero()) == 0);
+  CHECK(cone_of_spread(0, Vector3{}) == 0);
   CHECK(cone_of_openness(1 + 1e-7) == Approx(kPi / 2));
-  CHECK(cone_of_spread(0.3, Eigen::Vector3f(0, 0, 0.1F)) == Approx(kPi / 2));  // a ditch: wider than any cone
+  CHECK(cone_of_spread(0.3, Vector3{0, 0, 0.1F}) == Approx(kPi / 2));  // a ditch: wider than any cone
 }
 
 TEST_CASE("the nine harmonics are orthonormal", "[bake]") {
@@ -142,9 +143,8 @@ TEST_CASE("dithered levels have the value as their mean, ends stay ends, and a l
 TEST_CASE("n makes the model exact at the albedo of its fit; eight bits cost little", "[bake]") {
   Map sky(3, 1);
   sky.values = {0.25F, 0.5F, std::nanf("")};
-  TexelVector total(3);
-  total << 0.7, 0.8, 0;
-  const Map n = fit_model_map(sky, total);
+  const TexelVector total{0.7, 0.8, 0};
+  const Map n = solve_seen(sky, total);
   CHECK(std::isnan(n.values[2]));
   const ModelError fitted = judge_model_map(sky, n, total, kSeenAlbedo);
   CHECK(fitted.rmse < 1e-7);  // rounding: n is a float

@@ -2,6 +2,7 @@
 
 #include "heightlight/error.h"
 #include "heightlight/files.h"
+#include "remedy.h"
 #include "scratch_folder.h"
 #include "write_samples.h"
 
@@ -51,8 +52,8 @@ TEST_CASE("Channels that differ are refused until one is chosen, by name or numb
   const ScratchFolder scratch;
   const std::vector<std::uint8_t> samples{1, 2, 3, 9, 4, 5};
   const fs::path path = write_samples(scratch / "colour.png", 2, 1, kRgb, samples);
-  CHECK_THROWS_WITH(load_channel(path),
-                    Contains("colour.png") && Contains("R, G, B") && Contains("--channel"));
+  CHECK_THROWS_WITH(load_channel(path), Contains("colour.png") && Contains("R, G, B"));
+  CHECK(remedy_of([&] { load_channel(path); }) == "channel");
   CHECK(load_channel(path, "g").facts.highest == 4);
   CHECK(load_channel(path, "G").facts.channel == "G");
   CHECK(load_channel(path, "2").facts.highest == 5);

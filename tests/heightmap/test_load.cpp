@@ -5,6 +5,7 @@
 #include "files/image_file.h"
 #include "heightlight/error.h"
 #include "heightlight/files.h"
+#include "remedy.h"
 #include "scratch_folder.h"
 #include "write_samples.h"
 
@@ -200,18 +201,18 @@ TEST_CASE("Options outside their range are wrong usage", "[heightmap]") {
   for (const double bad : {0.0, -1.0, static_cast<double>(kNan), std::numeric_limits<double>::infinity()}) {
     LoadOptions options;
     options.relief = bad;
-    refuse(options, "--relief");
+    refuse(options, "relief");
     options = {};
     options.width = bad;
-    refuse(options, "--width");
+    refuse(options, "width");
     options = {};
     options.texel = Spacing{1, bad};
-    refuse(options, "--texel");
+    refuse(options, "texel");
   }
   LoadOptions both;
   both.width = 1;
   both.texel = Spacing{1, 1};
-  refuse(both, "--width and --texel");
+  refuse(both, "width: excludes a texel");
 }
 
 TEST_CASE("Heights that single precision cannot hold are refused", "[heightmap]") {
@@ -223,5 +224,6 @@ TEST_CASE("Heights that single precision cannot hold are refused", "[heightmap]"
 TEST_CASE("The memory limit holds for a whole load", "[heightmap]") {
   const ScratchFolder scratch;
   const fs::path path = write_levels(scratch, 100, 100, std::vector<std::uint16_t>(10'000, 1));
-  CHECK_THROWS_WITH(load_heightmap(path, {}, 50'000), Contains("levels.png") && Contains("--memory"));
+  CHECK_THROWS_WITH(load_heightmap(path, {}, 50'000), Contains("levels.png"));
+  CHECK_THAT(remedy_of([&] { load_heightmap(path, {}, 50'000); }), Catch::StartsWith("memory"));
 }

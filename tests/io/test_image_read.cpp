@@ -5,6 +5,7 @@
 #include "files/image_read.h"
 #include "files/map_size.h"
 #include "heightlight/error.h"
+#include "remedy.h"
 #include "scratch_folder.h"
 #include "write_samples.h"
 
@@ -166,9 +167,9 @@ TEST_CASE("A header that promises too much is refused before samples are read", 
   const ScratchFolder scratch;
   const fs::path path = scratch / "map.png";
   CHECK_NOTHROW(check_map_size(path, 1024, 1024, 8, 8 << 20));
-  CHECK_THROWS_WITH(
-      check_map_size(path, 1024, 1024, 8, 5 << 20),
-      Contains("map.png") && Contains("8.0 MiB") && Contains("5.0 MiB") && Contains("--memory 8M"));
+  CHECK_THROWS_WITH(check_map_size(path, 1024, 1024, 8, 5 << 20),
+                    Contains("map.png") && Contains("8.0 MiB") && Contains("5.0 MiB"));
+  CHECK(remedy_of([&] { check_map_size(path, 1024, 1024, 8, 5 << 20); }) == "memory 8M");
   CHECK_THROWS_WITH(check_map_size(path, 0, 7, 8, kReadMemory), Contains("map.png") && Contains("0 x 7"));
   CHECK_THROWS_WITH(check_map_size(path, 1 << 20, 1, 8, kReadMemory), Contains("too many"));
   CHECK_THROWS_WITH(check_map_size(path, 65536, 32769, 1, ~std::uint64_t{0}), Contains("too many"));
@@ -185,7 +186,8 @@ TEST_CASE("A PNG that announces gigabytes or nothing is refused by its header", 
     }
     return write_text(scratch / "fake.png", bytes);
   };
-  CHECK_THROWS_WITH(read(with_size(0x7f, 0xff)), Contains("fake.png") && Contains("--memory"));
+  CHECK_THROWS_WITH(read(with_size(0x7f, 0xff)), Contains("fake.png"));
+  CHECK_THAT(remedy_of([&] { read(with_size(0x7f, 0xff)); }), Catch::StartsWith("memory"));
   CHECK_THROWS_WITH(read(with_size(0, 0)), Contains("fake.png") && Contains("0 x 0"));
 }
 
@@ -193,5 +195,7 @@ TEST_CASE("Every format obeys the memory limit", "[io]") {
   const ScratchFolder scratch;
   const std::string name = GENERATE("8.png", "16.png", "a.exr", "float.tif", "a.jpg", "a.hdr", "a.tga");
   const fs::path path = write_noise(scratch, name);
-  CHECK_THROWS_WITH(read_image(path, recognise_format(path), 10'000), Contains(name) && Contains("--memory"));
+  CHECK_THROWS_WITH(read_image(path, recognise_format(path), 10'000), Contains(name));
+  CHECK_THAT(remedy_of([&] { read_image(path, recognise_format(path), 10'000); }),
+             Catch::StartsWith("memory"));
 }
