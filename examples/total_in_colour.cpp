@@ -28,5 +28,6 @@ int main() {
   const Evidence& evidence = results.evidence;
   std::printf("RMSE of red %.1e, on %d receivers; %d azimuths for the sky, %llu links in %.1f MB\n",
               evidence.total_checks[0].total_rmse, evidence.total_checks[0].receivers, evidence.azimuths,
-              static_cast<unsigned long long>(evidence.links), static_cast<double>(evidence.link_bytes) / 1e6);
+              static_cast<unsigned long long>(evidence.links),
+              static_cast<double>(evidence.link_bytes) / 1e6);
 }

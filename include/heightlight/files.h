@@ -16,16 +16,15 @@ namespace heightlight {
 
 /// How the samples of a file become heights. Absent values take the defaults that each field names.
 struct LoadOptions {
-  std::optional<double>
-      relief;  ///< > 0; peak-to-valley of the result. Integer files: width / 10; others: as they are
-  std::optional<double>
-      relief_share;                  ///< > 0; the same over the width (spacing × columns). Excludes `relief`
-  std::optional<double> width;       ///< > 0; extent of the columns, world units. Default 1. Excludes `texel`
-  std::optional<Spacing> texel;      ///< spacing; default width / columns, or an Esri grid's own cell size
-  std::optional<Boundary> boundary;  ///< default `open` for Esri grids, `tile` for images
-  std::optional<double> no_data;     ///< the value, as stored in the file, that means "missing"
-  std::optional<std::string> channel;  ///< name (any case) or 0-based index; default: the only one, or grey
-                                       ///< where all agree at every texel (alpha left out)
+  /// > 0; peak-to-valley of the result. Integer files: width / 10; others: as they are
+  std::optional<double> relief = {};
+  std::optional<double> relief_share = {};  ///< > 0; the same over the width. Excludes `relief`
+  std::optional<double> width = {};  ///< > 0; extent of the columns, world units. Default 1. Excludes `texel`
+  std::optional<Spacing> texel = {};  ///< spacing; default width / columns, or an Esri grid's own cell size
+  std::optional<Boundary> boundary = {};    ///< default `open` for Esri grids, `tile` for images
+  std::optional<double> no_data = {};       ///< the value, as stored in the file, that means "missing"
+  std::optional<std::string> channel = {};  ///< name (any case) or 0-based index; default: the only one, or
+                                            ///< grey where all agree at every texel (alpha left out)
   int shrink = 1;       ///< means of shrink × shrink samples take their place; must divide both sides
   bool invert = false;  ///< the file holds depths: the highest value is the lowest place
 };

@@ -108,7 +108,7 @@ ScreenSpaceView gtao(const DepthBuffer& depth, const GtaoOptions& options);
 
 /// GTAO, and along the same horizons one bounce gathered: a sample that raises the horizon from m to m' is
 /// seen through the form factor between them, and sends what a first pass found as its A. Fills `seen`, with
-/// which bounced_total (models.h) gives all bounces at any albedo. Bent normals, falloff and thickness are
+/// which bounced_total (forms.h) gives all bounces at any albedo. Bent normals, falloff and thickness are
 /// left out. Throws as gtao does.
 ScreenSpaceView gtao_with_bounce(const DepthBuffer& depth, const GtaoOptions& options);
 

@@ -144,7 +144,8 @@ void parse_options(BakeCommand& command) {
 }
 
 /// All files that a batch reads. An albedo that is a number names no file.
-std::vector<std::filesystem::path> input_files(const BakeCommand& command, const std::vector<BakeInput>& inputs) {
+std::vector<std::filesystem::path> input_files(const BakeCommand& command,
+                                               const std::vector<BakeInput>& inputs) {
   std::vector<std::filesystem::path> files{command.albedo};
   for (const BakeInput& input : inputs) files.push_back(input.path);
   return files;

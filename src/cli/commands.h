@@ -5,7 +5,7 @@
 namespace heightlight {
 
 /// Each adds its subcommand, with options, help and examples, to the application. The subcommand's callback
-/// does the work and throws Error, UsageError or Interrupted.
+/// does the work and throws Error, UsageError or Cancelled.
 void add_info_command(CLI::App& app);
 void add_synth_command(CLI::App& app);
 void add_simulate_command(CLI::App& app);

@@ -13,7 +13,8 @@ void write_summary(const std::filesystem::path& path, const SimulateOptions& opt
   summary["map"] = describe_map(options.map.path, simulation.facts.sha256, surface);
   summary.update(describe_evidence(evidence));
   summary["bounces"] = options.bounces;
-  summary["albedo"] = albedo.varying.empty() ? nlohmann::ordered_json(albedo.constant) : nlohmann::ordered_json(options.albedo);
+  summary["albedo"] = albedo.varying.empty() ? nlohmann::ordered_json(albedo.constant)
+                                             : nlohmann::ordered_json(options.albedo);
   nlohmann::ordered_json& times = summary["time_s"] = describe_times(evidence.seconds);
   times["load"] = simulation.seconds.load;
   times["curves"] = simulation.seconds.curves;

@@ -28,9 +28,9 @@ enum Column {
   kP05,
   kP50,
   kP95,
-  kColumns
+  kColumnCount
 };
-constexpr std::array<std::string_view, kColumns> kNames{
+constexpr std::array<std::string_view, kColumnCount> kNames{
     "ao_kind", "bin", "ao_lo", "ao_hi", "ao_mean", "count", "bounce", "mean", "stddev", "p05", "p50", "p95"};
 constexpr double kSlack = 1e-6;  // shares as measured stray out of [0, 1] by rounding
 
@@ -82,7 +82,7 @@ class CurvesReader {
   void find_columns(std::string_view header) {
     const std::vector<std::string_view> names = split(header, ',');
     fields_ = names.size();
-    for (std::size_t c = 0; c < kColumns; ++c) {
+    for (std::size_t c = 0; c < kColumnCount; ++c) {
       const auto found = std::find(names.begin(), names.end(), kNames[c]);
       if (found == names.end()) {
         throw file_error(path_,
@@ -189,7 +189,7 @@ class CurvesReader {
   const std::filesystem::path& path_;
   std::size_t line_ = 0;
   std::size_t fields_ = 0;
-  std::array<std::size_t, kColumns> place_{};
+  std::array<std::size_t, kColumnCount> place_{};
   std::vector<std::string_view> row_;
   std::vector<BounceCurves> curves_;
 };

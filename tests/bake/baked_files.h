@@ -1,7 +1,15 @@
 #pragma once
 
 #include <OpenImageIO/imageio.h>
+
+// stb's decoder once more: the library keeps its own to itself.
+#define STB_IMAGE_IMPLEMENTATION
+#define STB_IMAGE_STATIC
+#define STBI_ONLY_PNG
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
 #include <stb/stb_image.h>
+#pragma GCC diagnostic pop
 
 #include <catch2/catch.hpp>
 #include <filesystem>

@@ -94,8 +94,8 @@ TEST_CASE("bent normals and harmonics at the default error against 65536 rays", 
     angles[static_cast<std::size_t>(i)] = std::atan2(ours.cross(truth.first).norm(), ours.dot(truth.first));
     std::array<double, 5> second{};
     for (std::size_t k = 0; k < 5; ++k) second[k] = static_cast<double>(moments.second.values[texel][k]);
-    const Harmonics found =
-        harmonics_of_moments(static_cast<double>(material.results.sky_view_factor.values[texel]), ours, second);
+    const Harmonics found = harmonics_of_moments(
+        static_cast<double>(material.results.sky_view_factor.values[texel]), ours, second);
     brighter[static_cast<std::size_t>(i)] = dot(found, sky) - dot(truth.harmonics, sky);
   });
   double angle_squares = 0;

@@ -70,6 +70,12 @@ TEST_CASE("the sidecar says what was asked for and what came of it", "[cli][bake
   CHECK(sidecar["files"][2]["channels"].size() == 4);
   CHECK(sidecar["errors"]["ao_rmse"].get<double>() < 0.004);
   CHECK(sidecar["errors"]["multibounce_rmse"].get<double>() < 0.004);
+  CHECK(sidecar["visibility"]["checked_sky"]["receivers"] == 256);
+  CHECK(sidecar["visibility"]["checked"]["receivers"] == 256);
+  CHECK(sidecar["visibility"]["expected_rmse"]["total_from_links"].get<double>() > 0);
+  CHECK(sidecar["links"]["count"].get<std::uint64_t>() > 0);
+  CHECK(sidecar["memory"]["estimated_bytes"].get<std::uint64_t>() >
+        sidecar["links"]["bytes"].get<std::uint64_t>());
   const Picture total = read_picture(folder / "out" / "brick_multibounce.png");
   CHECK(total.channels == std::vector<std::string>{"R", "G", "B"});
 }

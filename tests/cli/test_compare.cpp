@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -33,7 +34,8 @@ TEST_CASE("compare writes its table, report, plots and pictures, and errors that
   REQUIRE(one.exit_code == 0);
   REQUIRE(run_command("compare map.png -o two --albedo 0.3,0.8,0.8 --threads 2 --quiet", folder).exit_code ==
           0);
-  for (const char* name : {"compare.csv", "report.md", "pareto.svg", "pareto.png", "errors.png"}) {
+  for (const char* name :
+       {"compare.csv", "compare.json", "report.md", "pareto.svg", "pareto.png", "errors.png"}) {
     CHECK(std::filesystem::file_size(folder / (std::string("one/") + name)) > 500);
   }
   const auto pictures = std::filesystem::directory_iterator(folder / "one");
@@ -62,6 +64,11 @@ TEST_CASE("compare writes its table, report, plots and pictures, and errors that
   const std::string report = read_text(folder / "one/report.md");
   CHECK(report.find("The cheapest method for each error: sky_view_factor") != std::string::npos);
   CHECK(report.find("nan") == std::string::npos);
+  const nlohmann::json evidence = nlohmann::json::parse(read_text(folder / "one/compare.json"));
+  CHECK(evidence["map"]["width"] == 32);
+  CHECK(evidence["reference"]["checked"]["receivers"] == 256);
+  CHECK(evidence["visibility"]["checked"]["total_rmse_by_albedo"].size() == 3);
+  CHECK(evidence["memory"]["estimated_bytes"].get<std::uint64_t>() > 0);
 }
 
 TEST_CASE("compare takes a map with holes, an image as albedo, and a level map", "[cli][compare][slow]") {

@@ -28,7 +28,7 @@ double rms_at(const nlohmann::json& forms, const std::string& name, std::size_t 
 
 }  // namespace
 
-TEST_CASE("fit judges forms texel by texel, on materials that it left out", "[cli][models]") {
+TEST_CASE("fit judges forms texel by texel, on materials that it left out", "[cli][fit]") {
   const ScratchFolder folder;
   for (const std::string shape : {"brick", "cobbles", "fbm"}) {
     REQUIRE(run_command("synth " + shape + " -o " + shape + ".png --size 64", folder).exit_code == 0);
@@ -80,7 +80,7 @@ TEST_CASE("fit judges forms texel by texel, on materials that it left out", "[cl
   }
 }
 
-TEST_CASE("fit takes curves alone", "[cli][models]") {
+TEST_CASE("fit takes curves alone", "[cli][fit]") {
   const ScratchFolder folder;
   REQUIRE(run_command("synth brick -o brick.png --size 64", folder).exit_code == 0);
   REQUIRE(run_command("simulate brick.png -o brick --error 0 --azimuths 16 --bounces 8 --quiet", folder)
@@ -97,7 +97,7 @@ TEST_CASE("fit takes curves alone", "[cli][models]") {
   CHECK(models["floors"].empty());
 }
 
-TEST_CASE("fit refuses what it cannot use, and leaves nothing behind", "[cli][models]") {
+TEST_CASE("fit refuses what it cannot use, and leaves nothing behind", "[cli][fit]") {
   const ScratchFolder folder;
   write_text(folder / "bad.csv", "ao_kind,bin\n");
   write_text(folder / "curves.csv", "not,a,table\n1,2,3\n");

@@ -29,7 +29,8 @@ void copy(const ScratchFolder& folder, const std::string& from, const std::strin
 TEST_CASE("heightmaps are not replaced by results", "[cli]") {
   const ScratchFolder folder;
   REQUIRE(run_command("synth brick -o map.png --size 16", folder).exit_code == 0);
-  for (const char* name : {"height.png", "bounces.png", "curves.png", "errors.png", "pareto.png", "error_01_rays.png"}) {
+  for (const char* name :
+       {"height.png", "bounces.png", "curves.png", "errors.png", "pareto.png", "error_01_rays.png"}) {
     copy(folder, "map.png", name);
   }
   refuses(folder, "simulate height.png -o .", "height.png");

@@ -1,5 +1,5 @@
-// What was estimated beforehand is what is held: the peak of a large map over that of a tiny one, which leaves out what
-// programs hold anyway.
+// What was estimated beforehand is what is held: the peak of a large map over that of a tiny one, which
+// leaves out what programs hold anyway.
 
 #include <catch2/catch.hpp>
 #include <string>
@@ -44,7 +44,8 @@ TEST_CASE("memory is what it was estimated to be", "[cli][slow]") {
   const ScratchFolder folder;
   REQUIRE(run_command("synth fbm -o small.png --size 32", folder).exit_code == 0);
   REQUIRE(run_command("synth fbm -o large.png --size " + std::to_string(kLarge), folder).exit_code == 0);
-  for (const char* maps : {"ao", "ao,bent-normal,sh", "multibounce", "ao,ao-n,multibounce --albedo 0.9,0.5,0.2"}) {
+  for (const char* maps :
+       {"ao", "ao,bent-normal,sh", "multibounce", "ao,ao-n,multibounce --albedo 0.9,0.5,0.2"}) {
     check_estimate(folder, "bake", std::string("--maps ") + maps, "_bake.json");
   }
   check_estimate(folder, "simulate", "--bounces 3", "");

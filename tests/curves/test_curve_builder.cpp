@@ -121,11 +121,10 @@ TEST_CASE("Bins hold the texels between their edges, and their statistics are th
     for (std::size_t i = 0; i < ao.size(); ++i) {
       const double value = static_cast<double>(ao.values[i]);
       if (value < bin.ao_lo || value >= bin.ao_hi) continue;
-      const auto texel = i;
       members.push_back(value);
-      first_values.push_back(first[texel]);
-      second_values.push_back(second[texel]);
-      tail_values.push_back(first[texel] + second[texel]);
+      first_values.push_back(first[i]);
+      second_values.push_back(second[i]);
+      tail_values.push_back(first[i] + second[i]);
     }
     REQUIRE(bin.count == members.size());
     REQUIRE(bin.bounces.size() == 2);

@@ -1,6 +1,5 @@
-// One call: what is asked for is found, and nothing else; whatever else is asked for, on however many threads.
-
-#include "heightlight/solve.h"
+// One call: what is asked for is found, and nothing else; whatever else is asked for, on however many
+// threads.
 
 #include <atomic>
 #include <catch2/catch.hpp>
@@ -11,6 +10,7 @@
 #include "base/texel_algebra.h"
 #include "heightlight/error.h"
 #include "heightlight/forms.h"
+#include "heightlight/solve.h"
 #include "heightlight/synth.h"
 
 namespace heightlight {
@@ -280,12 +280,14 @@ TEST_CASE("requests without sense name the quantity", "[solve]") {
   CHECK(quantity_of(with([](Request& r) { r.accuracy.error = 0; })) == "error");
   CHECK(quantity_of(with([](Request& r) { r.accuracy.error = NAN; })) == "error");
   CHECK(quantity_of(with([](Request& r) { r.accuracy.azimuths = 7; })) == "azimuths");
-  CHECK(quantity_of(with([](Request& r) { r.accuracy = {.visibility = Visibility::rays, .rays = 0}; })) == "rays");
+  CHECK(quantity_of(with([](Request& r) { r.accuracy = {.visibility = Visibility::rays, .rays = 0}; })) ==
+        "rays");
   CHECK(quantity_of(with([](Request& r) { r.wanted.bounces = -1; })) == "bounces");
   CHECK(quantity_of(with([](Request& r) { r.wanted.reach = Reach{.distance = -1}; })) == "max_distance");
   CHECK(quantity_of(with([](Request& r) { r.wanted.totals = {{}}; })) == "albedo");
   CHECK(quantity_of(with([](Request& r) { r.wanted.totals = {{.constant = {2}}}; })) == "albedo");
-  CHECK(quantity_of(with([](Request& r) { r.wanted.totals = {{.varying = {TexelVector(3, 0.5)}}}; })) == "albedo");
+  CHECK(quantity_of(with([](Request& r) { r.wanted.totals = {{.varying = {TexelVector(3, 0.5)}}}; })) ==
+        "albedo");
   CHECK(quantity_of(with([](Request& r) { r.wanted.direct = {1.0}; })) == "direct");
   CHECK(quantity_of(with([](Request& r) {
           r.accuracy.visibility = Visibility::rays;
@@ -334,7 +336,8 @@ TEST_CASE("heights count from anywhere", "[solve]") {
   request.wanted = {.sky = true};
   const Map above = solve(surface, request).sky_view_factor;
   const Map below = solve(build_surface(lowered), request).sky_view_factor;
-  for (std::size_t i = 0; i < above.size(); ++i) REQUIRE(above.values[i] == Approx(below.values[i]).margin(2e-5));
+  for (std::size_t i = 0; i < above.size(); ++i)
+    REQUIRE(above.values[i] == Approx(below.values[i]).margin(2e-5));
 }
 
 }  // namespace heightlight

@@ -19,7 +19,8 @@ Surface make_wall(int size) {
 
 double rms(const Map& a, const Map& b) {
   double squares = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) squares += std::pow(double{a.values[i]} - double{b.values[i]}, 2);
+  for (std::size_t i = 0; i < a.size(); ++i)
+    squares += std::pow(double{a.values[i]} - double{b.values[i]}, 2);
   return std::sqrt(squares / static_cast<double>(a.size()));
 }
 

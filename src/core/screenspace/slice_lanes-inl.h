@@ -109,7 +109,8 @@ HWY_INLINE void for_receivers(const DepthBuffer& depth, int row, const Body& bod
   }
 }
 
-/// Calls look(n) with the number of depths that a sample reads as a constant: one, or the three of a triangle.
+/// Calls look(n) with the number of depths that a sample reads as a constant: one, or the three of a
+/// triangle.
 template <class Look>
 HWY_INLINE void with_taps(int taps, Look&& look) {
   if (taps == 1) {

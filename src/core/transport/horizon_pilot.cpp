@@ -69,7 +69,9 @@ double root_mean_square(const std::vector<double>& errors) {
 }
 
 HorizonPilot::HorizonPilot(const Surface& surface, std::uint64_t seed, const Watch& watch)
-    : surface_(surface), trial_watch_{.tell = {}, .stopped = watch.stopped}, mips_(build_height_mips(surface)) {
+    : surface_(surface),
+      trial_watch_{.tell = {}, .stopped = watch.stopped},
+      mips_(build_height_mips(surface)) {
   const std::vector<TileFrame> strips = cut_strips(surface);
   const auto count = static_cast<std::int64_t>(strips.size());
   const std::int64_t wanted = std::min(kStrips, count);

@@ -44,7 +44,7 @@ class HorizonPilot {
   /// RMSE of A against kManyAzimuths walked alike: what few azimuths cost, apart from sampling.
   double azimuth_error(const WalkOptions& options);
 
-  /// Where every other azimuth will do: the blocks below a surface_share, as SkyTask has it; the share of the
+  /// Where every other azimuth will do: the blocks below a surface_share, as SkyPlan has it; the share of the
   /// others, which walk all; and the RMSE of A against kManyAzimuths that this leaves, no more than `error`
   /// where all azimuths everywhere leave no more. `options.azimuths` is a multiple of 4.
   struct Sparse {

@@ -25,7 +25,7 @@
 
 namespace heightlight {
 
-/// Throws UsageError, naming `--max-distance`, unless the reach is positive and finite.
+/// Throws UsageError, naming max_distance, unless the reach is positive and finite.
 void check_reach(const Reach& reach);
 
 /// What of an azimuth's table lies within a reach.

@@ -44,7 +44,7 @@ enum class TextureDepth { uint8, uint16, half, real };
 
 /// What goes into one channel of a packed texture: a component of a map, or a constant.
 struct PackedChannel {
-  std::optional<MaterialMap> map;
+  std::optional<MaterialMap> map = {};
   int component = 0;
   double constant = 0;  ///< where there is no map, in [0, 1]
 };
@@ -54,10 +54,11 @@ struct BakeOptions {
   std::vector<PackedChannel> packed;  ///< one to four channels of one more file; none where empty
   bool uniform_ao = false;            ///< α in place of A
   Albedo albedo{.constant = {0.5}};   ///< of multibounce
-  std::optional<Reach> reach;  ///< of ao, bent normals and cones, horizons and sh; not of multibounce, ao_n
-  bool y_down = false;         ///< as Direct3D has it, where OpenGL has y up
-  bool bent_length = false;    ///< alpha of bent normals: |(3/2π) ∫ V ω cosθ dω|, 1 = open
-  int horizon_azimuths = 4;    ///< N: toward 2π k/N, counterclockwise from x
+  std::optional<Reach> reach =
+      {};                    ///< of ao, bent normals and cones, horizons and sh; not of multibounce, ao_n
+  bool y_down = false;       ///< as Direct3D has it, where OpenGL has y up
+  bool bent_length = false;  ///< alpha of bent normals: |(3/2π) ∫ V ω cosθ dω|, 1 = open
+  int horizon_azimuths = 4;  ///< N: toward 2π k/N, counterclockwise from x
   TextureFormat format = TextureFormat::png;
   TextureDepth depth = TextureDepth::uint16;
   bool dither = false;           ///< blue noise instead of rounding; 8 bits only

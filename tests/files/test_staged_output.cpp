@@ -2,13 +2,14 @@
 
 #include "files/staged_output.h"
 #include "heightlight/error.h"
+#include "remedy.h"
 #include "scratch_folder.h"
 
 using namespace heightlight;
 using Catch::Contains;
 namespace fs = std::filesystem;
 
-TEST_CASE("A committed folder holds its files and nothing else", "[io]") {
+TEST_CASE("A committed folder holds its files and nothing else", "[files]") {
   const ScratchFolder scratch;
   {
     StagedFolder out(scratch / "a/b/out/", {}, {});
@@ -22,7 +23,7 @@ TEST_CASE("A committed folder holds its files and nothing else", "[io]") {
   CHECK(scratch.entry_count() == 5);  // three folders, two files
 }
 
-TEST_CASE("A folder without commit leaves no trace, not even the folders it created", "[io]") {
+TEST_CASE("A folder without commit leaves no trace, not even the folders it created", "[files]") {
   const ScratchFolder scratch;
   {
     StagedFolder out(scratch / "a/b/out", {}, {});
@@ -31,7 +32,7 @@ TEST_CASE("A folder without commit leaves no trace, not even the folders it crea
   CHECK(scratch.entry_count() == 0);
 }
 
-TEST_CASE("A folder without commit leaves what was there before", "[io]") {
+TEST_CASE("A folder without commit leaves what was there before", "[files]") {
   const ScratchFolder scratch;
   write_text(scratch / "one.txt", "old");
   {
@@ -42,7 +43,7 @@ TEST_CASE("A folder without commit leaves what was there before", "[io]") {
   CHECK(scratch.entry_count() == 1);
 }
 
-TEST_CASE("A commit replaces files of the same name and keeps the others", "[io]") {
+TEST_CASE("A commit replaces files of the same name and keeps the others", "[files]") {
   const ScratchFolder scratch;
   write_text(scratch / "one.txt", "old");
   write_text(scratch / "other.txt", "other");
@@ -53,7 +54,7 @@ TEST_CASE("A commit replaces files of the same name and keeps the others", "[io]
   CHECK(scratch.entry_count() == 2);
 }
 
-TEST_CASE("A commit that lacks a file names it and changes nothing", "[io]") {
+TEST_CASE("A commit that lacks a file names it and changes nothing", "[files]") {
   const ScratchFolder scratch;
   {
     StagedFolder out(scratch / "out", {}, {});
@@ -64,7 +65,7 @@ TEST_CASE("A commit that lacks a file names it and changes nothing", "[io]") {
   CHECK(scratch.entry_count() == 0);
 }
 
-TEST_CASE("A folder that cannot be made is refused by name, and nothing is left behind", "[io]") {
+TEST_CASE("A folder that cannot be made is refused by name, and nothing is left behind", "[files]") {
   const ScratchFolder scratch;
   const fs::path file = write_text(scratch / "file", "x");
   CHECK_THROWS_WITH(StagedFolder(file, {}, {}), Contains(file.string()) && Contains("not a folder"));
@@ -74,7 +75,7 @@ TEST_CASE("A folder that cannot be made is refused by name, and nothing is left 
   CHECK(scratch.entry_count() == 1);
 }
 
-TEST_CASE("A folder in the place of a result is refused before work is spent", "[io]") {
+TEST_CASE("A folder in the place of a result is refused before work is spent", "[files]") {
   const ScratchFolder scratch;
   fs::create_directory(scratch / "result.csv");
   StagedFolder out(scratch.path(), {}, {});
@@ -82,7 +83,28 @@ TEST_CASE("A folder in the place of a result is refused before work is spent", "
   CHECK_THROWS_WITH(StagedFile(scratch / "result.csv"), Contains("result.csv") && Contains("directory"));
 }
 
-TEST_CASE("A staged file keeps its extension, appears on commit, and leaves nothing without", "[io]") {
+TEST_CASE("A result never replaces an input, whatever that is called", "[files]") {
+  const ScratchFolder scratch;
+  const fs::path input = write_text(scratch / "one.txt", "input");
+  fs::create_symlink("one.txt", scratch / "link.txt");
+  fs::create_hard_link(input, scratch / "twin.txt");
+  const auto entries = scratch.entry_count();
+  for (const char* name : {"one.txt", "link.txt", "twin.txt"}) {
+    CAPTURE(name);
+    const auto stage = [&] { StagedFolder(scratch.path(), {input}, {name}); };
+    CHECK_THROWS_AS(stage(), UsageError);
+    CHECK_THROWS_WITH(stage(), Contains("one.txt: the results would replace it"));
+    CHECK(remedy_of(stage) == "output");
+    StagedFolder out(scratch.path(), {input}, {});  // a name that nobody told beforehand
+    CHECK_THROWS_AS(out.file(name), UsageError);
+    CHECK_THROWS_AS(StagedFile(scratch / name, {input}), UsageError);
+  }
+  CHECK_NOTHROW(StagedFolder(scratch.path(), {input, scratch / "absent.txt"}, {"absent.txt", "other.txt"}));
+  CHECK(read_text(input) == "input");
+  CHECK(scratch.entry_count() == entries);
+}
+
+TEST_CASE("A staged file keeps its extension, appears on commit, and leaves nothing without", "[files]") {
   const ScratchFolder scratch;
   {
     StagedFile out(scratch / "map.exr");
@@ -100,7 +122,7 @@ TEST_CASE("A staged file keeps its extension, appears on commit, and leaves noth
   CHECK(scratch.entry_count() == 1);
 }
 
-TEST_CASE("A staged file needs a folder, and never replaces a device", "[io]") {
+TEST_CASE("A staged file needs a folder, and never replaces a device", "[files]") {
   const ScratchFolder scratch;
   CHECK_THROWS_WITH(StagedFile(scratch / "absent/map.exr"), Contains("absent/map.exr") && Contains("folder"));
   CHECK_THROWS_WITH(StagedFile("/dev/null"), Contains("/dev/null") && Contains("not a regular file"));

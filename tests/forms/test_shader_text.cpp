@@ -62,7 +62,7 @@ std::string run_as_cpp(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("shaders compute what the library does", "[models]") {
+TEST_CASE("shaders compute what the library does", "[forms]") {
   ShaderConstants constants;
   constants.notes = {0.41, 1, 20.5, 3.1};
   constants.cubic = {1.9, -0.31, 4.5, -0.6, 2.6, 0.71};
@@ -100,7 +100,7 @@ TEST_CASE("shaders compute what the library does", "[models]") {
         double value = -1;
         REQUIRE(lines >> value);
         INFO("AO " << ao << " other " << other << " albedo " << albedo << " column " << compared % 16);
-        CHECK(value == Approx(expected).margin(4e-6));  // discretisation of floats, as of models.h
+        CHECK(value == Approx(expected).margin(4e-6));  // discretisation of floats, as of forms.h
         ++compared;
       }
     }

@@ -23,7 +23,7 @@ const std::vector<std::string> kRgba{"R", "G", "B", "A"};
 
 }  // namespace
 
-TEST_CASE("Grey stored as RGB is one channel, and alpha does not count", "[heightmap]") {
+TEST_CASE("Grey stored as RGB is one channel, and alpha does not count", "[files]") {
   const ScratchFolder scratch;
   const LoadedHeightmap rgb = load_channel(
       write_samples(scratch / "rgb.png", 2, 1, kRgb, std::vector<std::uint8_t>{1, 1, 1, 9, 9, 9}));
@@ -40,7 +40,7 @@ TEST_CASE("Grey stored as RGB is one channel, and alpha does not count", "[heigh
   CHECK(grey.facts.highest == 9);
 }
 
-TEST_CASE("Channels that are missing in the same places agree", "[heightmap]") {
+TEST_CASE("Channels that are missing in the same places agree", "[files]") {
   const ScratchFolder scratch;
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const fs::path path =
@@ -48,7 +48,7 @@ TEST_CASE("Channels that are missing in the same places agree", "[heightmap]") {
   CHECK(count_missing(load_channel(path).map) == 1);
 }
 
-TEST_CASE("Channels that differ are refused until one is chosen, by name or number", "[heightmap]") {
+TEST_CASE("Channels that differ are refused until one is chosen, by name or number", "[files]") {
   const ScratchFolder scratch;
   const std::vector<std::uint8_t> samples{1, 2, 3, 9, 4, 5};
   const fs::path path = write_samples(scratch / "colour.png", 2, 1, kRgb, samples);
@@ -60,7 +60,7 @@ TEST_CASE("Channels that differ are refused until one is chosen, by name or numb
   CHECK(load_channel(path, "0").facts.channel == "R");
 }
 
-TEST_CASE("A channel that the file lacks is wrong usage, and those it has are listed", "[heightmap]") {
+TEST_CASE("A channel that the file lacks is wrong usage, and those it has are listed", "[files]") {
   const ScratchFolder scratch;
   const fs::path path = write_samples(scratch / "grey.png", 2, 1, {"Y"}, std::vector<std::uint8_t>{1, 2});
   for (const char* wanted : {"Z", "1", "-1", "", "0x0"}) {
@@ -69,7 +69,7 @@ TEST_CASE("A channel that the file lacks is wrong usage, and those it has are li
   }
 }
 
-TEST_CASE("An EXR's channel is found by its layer's name", "[heightmap]") {
+TEST_CASE("An EXR's channel is found by its layer's name", "[files]") {
   const ScratchFolder scratch;
   const fs::path path =
       write_samples(scratch / "layers.exr", 2, 1, {"Y", "depth.Z"}, std::vector<float>{1, 5, 2, 8});

@@ -48,7 +48,7 @@ fs::path write_noise(const ScratchFolder& scratch, const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("Formats are recognised by content, whatever the name", "[io]") {
+TEST_CASE("Formats are recognised by content, whatever the name", "[files]") {
   const ScratchFolder scratch;
   const auto [name, format] = GENERATE(table<std::string, FileFormat>({{"a.png", FileFormat::png},
                                                                        {"a.exr", FileFormat::openexr},
@@ -62,13 +62,13 @@ TEST_CASE("Formats are recognised by content, whatever the name", "[io]") {
   CHECK(read(scratch / "map.dat").width == 48);
 }
 
-TEST_CASE("An Esri grid is known by its first keyword or by its name", "[io]") {
+TEST_CASE("An Esri grid is known by its first keyword or by its name", "[files]") {
   const ScratchFolder scratch;
   CHECK(recognise_format(write_text(scratch / "grid.txt", "  NCOLS 2\n")) == FileFormat::esri_grid);
   CHECK(recognise_format(write_text(scratch / "grid.ASC", "what?")) == FileFormat::esri_grid);
 }
 
-TEST_CASE("What is no file of samples is refused with its name and the reason", "[io]") {
+TEST_CASE("What is no file of samples is refused with its name and the reason", "[files]") {
   const ScratchFolder scratch;
   const auto fault = [](const fs::path& path, const std::string& reason) {
     CHECK_THROWS_WITH(recognise_format(path), Contains(path.string()) && Contains(reason));
@@ -88,7 +88,7 @@ TEST_CASE("What is no file of samples is refused with its name and the reason", 
   fault(secret, "cannot be read");
 }
 
-TEST_CASE("A file cut anywhere is an error that names it", "[io]") {
+TEST_CASE("A file cut anywhere is an error that names it", "[files]") {
   const ScratchFolder scratch;
   const std::string name =
       GENERATE("8.png", "16.png", "a.exr", "float.tif", "16.tif", "a.jpg", "a.hdr", "a.tga");
@@ -104,14 +104,14 @@ TEST_CASE("A file cut anywhere is an error that names it", "[io]") {
   }
 }
 
-TEST_CASE("A damaged byte in a PNG is noticed", "[io]") {
+TEST_CASE("A damaged byte in a PNG is noticed", "[files]") {
   const ScratchFolder scratch;
   std::string bytes = read_text(write_noise(scratch, "16.png"));
   bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
   CHECK_THROWS_WITH(read(write_text(scratch / "16.png", bytes)), Contains("damaged") && Contains("16.png"));
 }
 
-TEST_CASE("Sample types keep their values and are named", "[io]") {
+TEST_CASE("Sample types keep their values and are named", "[files]") {
   const ScratchFolder scratch;
   const auto check = [&](auto first, const std::string& name, bool is_integer) {
     using T = decltype(first);
@@ -130,7 +130,7 @@ TEST_CASE("Sample types keep their values and are named", "[io]") {
   check(1e6 + 1e-9, "double", false);
 }
 
-TEST_CASE("64-bit TIFFs that OpenImageIO reads as zeros are refused", "[io]") {
+TEST_CASE("64-bit TIFFs that OpenImageIO reads as zeros are refused", "[files]") {
   const ScratchFolder scratch;
   const std::vector<double> row{1, 2, 3};
   CHECK_THROWS_WITH(read(write_samples(scratch / "row.tif", 3, 1, {"Y"}, row)), Contains("row.tif: 64-bit"));
@@ -144,7 +144,7 @@ TEST_CASE("64-bit TIFFs that OpenImageIO reads as zeros are refused", "[io]") {
   CHECK_THROWS_WITH(read(scratch / "tiles.tif"), Contains("tiles.tif: 64-bit"));
 }
 
-TEST_CASE("Half samples become float without loss", "[io]") {
+TEST_CASE("Half samples become float without loss", "[files]") {
   const ScratchFolder scratch;
   const std::vector<float> samples{0.0f, 0.5f, -1.25f, 65504.0f};
   const StoredImage image =
@@ -154,7 +154,7 @@ TEST_CASE("Half samples become float without loss", "[io]") {
   CHECK(std::get<std::vector<float>>(image.samples) == samples);
 }
 
-TEST_CASE("Alpha is not multiplied into the samples", "[io]") {
+TEST_CASE("Alpha is not multiplied into the samples", "[files]") {
   const ScratchFolder scratch;
   const std::string name = GENERATE("a.tga", "a.tif", "a.png");
   const std::vector<std::uint8_t> samples{200, 200, 200, 0, 100, 100, 100, 128};
@@ -163,7 +163,7 @@ TEST_CASE("Alpha is not multiplied into the samples", "[io]") {
   CHECK(std::get<std::vector<std::uint8_t>>(image.samples) == samples);
 }
 
-TEST_CASE("A header that promises too much is refused before samples are read", "[io]") {
+TEST_CASE("A header that promises too much is refused before samples are read", "[files]") {
   const ScratchFolder scratch;
   const fs::path path = scratch / "map.png";
   CHECK_NOTHROW(check_map_size(path, 1024, 1024, 8, 8 << 20));
@@ -175,7 +175,7 @@ TEST_CASE("A header that promises too much is refused before samples are read", 
   CHECK_THROWS_WITH(check_map_size(path, 65536, 32769, 1, ~std::uint64_t{0}), Contains("too many"));
 }
 
-TEST_CASE("A PNG that announces gigabytes or nothing is refused by its header", "[io]") {
+TEST_CASE("A PNG that announces gigabytes or nothing is refused by its header", "[files]") {
   const ScratchFolder scratch;
   const auto with_size = [&](unsigned char high, unsigned char low) {
     std::string bytes = read_text(write_noise(scratch, "16.png"));
@@ -191,7 +191,7 @@ TEST_CASE("A PNG that announces gigabytes or nothing is refused by its header", 
   CHECK_THROWS_WITH(read(with_size(0, 0)), Contains("fake.png") && Contains("0 x 0"));
 }
 
-TEST_CASE("Every format obeys the memory limit", "[io]") {
+TEST_CASE("Every format obeys the memory limit", "[files]") {
   const ScratchFolder scratch;
   const std::string name = GENERATE("8.png", "16.png", "a.exr", "float.tif", "a.jpg", "a.hdr", "a.tga");
   const fs::path path = write_noise(scratch, name);

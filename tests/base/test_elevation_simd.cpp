@@ -4,7 +4,7 @@
 #include <vector>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "core/test_elevation_simd.cpp"
+#define HWY_TARGET_INCLUDE "base/test_elevation_simd.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -41,7 +41,7 @@ HWY_EXPORT(find_elevations);
 namespace {
 
 TEST_CASE("elevations of slopes are right to 3e-7, and level ones exactly, on every instruction set",
-          "[core]") {
+          "[base]") {
   std::vector<float> slopes{0.0F, -0.0F, 1.0F, -1.0F, 1e30F, -1e30F, 1e-30F, 1e-40F};
   for (double size = 1e-12; size < 1e17; size *= 1.013) {
     slopes.push_back(static_cast<float>(size));

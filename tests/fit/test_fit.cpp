@@ -67,7 +67,7 @@ const FormFamily& family_named(const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("known parameters are recovered within their stated intervals", "[models]") {
+TEST_CASE("known parameters are recovered within their stated intervals", "[fit]") {
   NotesConstants notes;
   notes.direct_gain = 0.42;
   notes.direct_power = 0.9;
@@ -99,7 +99,7 @@ TEST_CASE("known parameters are recovered within their stated intervals", "[mode
   check("seen_from_sky", {0.1, 0.7});
 }
 
-TEST_CASE("without noise parameters come back exactly", "[models]") {
+TEST_CASE("without noise parameters come back exactly", "[fit]") {
   const SeenConstants seen;
   const std::vector<JudgedMap> maps{
       synthetic_map("made", synthetic_curves({}, seen.offset, seen.slope, 0, 1))};
@@ -115,7 +115,7 @@ TEST_CASE("without noise parameters come back exactly", "[models]") {
   }
 }
 
-TEST_CASE("fits that can't be are errors that name them", "[models]") {
+TEST_CASE("fits that can't be are errors that name them", "[fit]") {
   const auto line = [](const Eigen::VectorXd& p, Eigen::VectorXd& left) {
     for (Eigen::Index i = 0; i < left.size(); ++i) left[i] = p[0] + p[1] * static_cast<double>(i) - 3;
   };
@@ -137,7 +137,7 @@ TEST_CASE("fits that can't be are errors that name them", "[models]") {
   CHECK_THROWS_AS(fit_least_squares("runaway", start, {10, 1, 10}, escaping), Error);
 }
 
-TEST_CASE("damaged curve files are refused by line", "[models][curves]") {
+TEST_CASE("damaged curve files are refused by line", "[fit][curves]") {
   const ScratchFolder scratch;
   const auto path = scratch / "bad.csv";
   const auto refuses = [&](const std::string& text, const char* fault) {
@@ -167,7 +167,7 @@ TEST_CASE("damaged curve files are refused by line", "[models][curves]") {
           "has 1 bounces where the first bin has 2");
 }
 
-TEST_CASE("curves read back as they were written, columns in any order", "[models][curves]") {
+TEST_CASE("curves read back as they were written, columns in any order", "[fit][curves]") {
   const ScratchFolder scratch;
   const std::vector<BounceCurves> curves = synthetic_curves(kBounded, 0.1, 0.7, 0, 3);
   write_curves_csv(scratch / "curves.csv", curves);
@@ -194,7 +194,7 @@ TEST_CASE("curves read back as they were written, columns in any order", "[model
   CHECK(turned[0].filled[0].tail.mean == 0.65);
 }
 
-TEST_CASE("maps with too few filled bins, or one kind of AO, are refused", "[models]") {
+TEST_CASE("maps with too few filled bins, or one kind of AO, are refused", "[fit]") {
   const ScratchFolder scratch;
   const auto write = [&](const std::vector<BounceCurves>& curves) {
     write_curves_csv(scratch / "c.csv", curves);

@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
 #include <sstream>
 
-#include "heightlight/files.h"
 #include "heightlight/error.h"
+#include "heightlight/files.h"
 #include "scratch_folder.h"
 
 using namespace heightlight;
@@ -23,7 +23,7 @@ BounceCurves two_bins(AoKind kind) {
 
 }  // namespace
 
-TEST_CASE("A curves file is one line per filled bin and bounce, one kind below the other", "[curves]") {
+TEST_CASE("A curves file is one line per filled bin and bounce, one kind below the other", "[files]") {
   const ScratchFolder scratch;
   const auto path = scratch / "curves.csv";
   write_curves_csv(path, {two_bins(AoKind::ambient_occlusion), two_bins(AoKind::sky_view_factor)});
@@ -41,7 +41,7 @@ TEST_CASE("A curves file is one line per filled bin and bounce, one kind below t
   CHECK(text == expected);
 }
 
-TEST_CASE("Every double of a curves file reads back as it was", "[curves]") {
+TEST_CASE("Every double of a curves file reads back as it was", "[files]") {
   const ScratchFolder scratch;
   const auto path = scratch / "curves.csv";
   const BounceStatistics odd{0.1 + 0.2, 1.0 / 7, 2.0 / 3, 4.9406564584124654e-324, 0.30000000000000004};
@@ -62,13 +62,13 @@ TEST_CASE("Every double of a curves file reads back as it was", "[curves]") {
   CHECK(std::stod(fields[11]) == odd.p95);
 }
 
-TEST_CASE("Without filled bins a curves file is its header", "[curves]") {
+TEST_CASE("Without filled bins a curves file is its header", "[files]") {
   const ScratchFolder scratch;
   write_curves_csv(scratch / "curves.csv", {BounceCurves{}});
   CHECK(read_text(scratch / "curves.csv") == kHeader);
 }
 
-TEST_CASE("A curves file that cannot be written is an error which names it", "[curves]") {
+TEST_CASE("A curves file that cannot be written is an error which names it", "[files]") {
   const ScratchFolder scratch;
   CHECK_THROWS_WITH(write_curves_csv(scratch / "absent/curves.csv", {}), Contains("absent/curves.csv"));
   if (!std::filesystem::exists("/dev/full")) {

@@ -16,7 +16,7 @@ EsriHeader header(double west, double south, double cell) {
 
 }  // namespace
 
-TEST_CASE("A cell size in degrees is told from lengths by place, size and steepness", "[heightmap]") {
+TEST_CASE("A cell size in degrees is told from lengths by place, size and steepness", "[files]") {
   CHECK(is_in_degrees(header(-105.55, 40.09, 1.0 / 1200), 1343));
   CHECK(is_in_degrees(header(-180, -90, 0.01), 8000));
   CHECK_FALSE(is_in_degrees(header(500000, 4500000, 0.25), 30));  // a town in UTM, off the globe
@@ -26,7 +26,7 @@ TEST_CASE("A cell size in degrees is told from lengths by place, size and steepn
   CHECK_FALSE(is_in_degrees({120, 100, 0.01, 0.01, std::nullopt, std::nullopt, std::nullopt}, 1343));
 }
 
-TEST_CASE("A degree is as long as on the WGS 84 ellipsoid", "[heightmap]") {
+TEST_CASE("A degree is as long as on the WGS 84 ellipsoid", "[files]") {
   // NGA's table of the length of a degree: latitude, metres to the north, metres to the east.
   const auto [latitude, north, east] = GENERATE(
       table<double, double, double>({{0, 110574, 111320}, {45, 111132, 78847}, {60, 111412, 55800}}));
@@ -35,7 +35,7 @@ TEST_CASE("A degree is as long as on the WGS 84 ellipsoid", "[heightmap]") {
   CHECK(metres.y == Approx(north).margin(1));
 }
 
-TEST_CASE("A grid in degrees is refused with the spacing to give, and taken with it", "[heightmap]") {
+TEST_CASE("A grid in degrees is refused with the spacing to give, and taken with it", "[files]") {
   const ScratchFolder scratch;
   const auto path =
       write_text(scratch / "dem.asc",

@@ -21,7 +21,7 @@ std::vector<T> samples_of(const StoredImage& image) {
 
 }  // namespace
 
-TEST_CASE("An 8-bit picture comes back as it was written", "[io]") {
+TEST_CASE("An 8-bit picture comes back as it was written", "[files]") {
   const ScratchFolder scratch;
   Image<Rgb8> picture(3, 2);
   for (std::size_t i = 0; i < picture.size(); ++i)
@@ -35,7 +35,7 @@ TEST_CASE("An 8-bit picture comes back as it was written", "[io]") {
         std::vector<std::uint8_t>{0, 7, 255, 40, 7, 255, 80, 7, 255, 120, 7, 255, 160, 7, 255, 200, 7, 255});
 }
 
-TEST_CASE("A 16-bit PNG keeps every level", "[io]") {
+TEST_CASE("A 16-bit PNG keeps every level", "[files]") {
   const ScratchFolder scratch;
   Image<std::uint16_t> levels(256, 256);
   for (std::size_t i = 0; i < levels.size(); ++i) levels.values[i] = static_cast<std::uint16_t>(i);
@@ -47,7 +47,7 @@ TEST_CASE("A 16-bit PNG keeps every level", "[io]") {
   CHECK(samples_of<std::uint16_t>(image) == levels.values);
 }
 
-TEST_CASE("A float image keeps every bit, NaN included, in EXR and TIFF", "[io]") {
+TEST_CASE("A float image keeps every bit, NaN included, in EXR and TIFF", "[files]") {
   const ScratchFolder scratch;
   const std::string name = GENERATE("map.exr", "map.tif");
   Map map(700, 300);  // taller than the rows written at a time
@@ -62,7 +62,7 @@ TEST_CASE("A float image keeps every bit, NaN included, in EXR and TIFF", "[io]"
   CHECK(samples == map.values);
 }
 
-TEST_CASE("Named channels of an EXR come back under their names", "[io]") {
+TEST_CASE("Named channels of an EXR come back under their names", "[files]") {
   const ScratchFolder scratch;
   const Map red(2, 1, 0.25f);
   const Map green(2, 1, 0.5f);
@@ -73,14 +73,14 @@ TEST_CASE("Named channels of an EXR come back under their names", "[io]") {
   CHECK(samples_of<float>(image) == std::vector<float>{0.25f, 0.5f, 0.75f, 0.25f, 0.5f, 0.75f});
 }
 
-TEST_CASE("Text attributes stand in an EXR's header", "[io]") {
+TEST_CASE("Text attributes stand in an EXR's header", "[files]") {
   const ScratchFolder scratch;
   const Map map(2, 2, 1.0f);
   write_float_image(scratch / "map.exr", {{"Y", &map}}, {{"quantity", "irradiance over pi"}});
   CHECK_THAT(read_text(scratch / "map.exr"), Contains("quantity") && Contains("irradiance over pi"));
 }
 
-TEST_CASE("A full disk is an error of every writer, which names the file", "[io]") {
+TEST_CASE("A full disk is an error of every writer, which names the file", "[files]") {
   if (!std::filesystem::exists("/dev/full")) {
     WARN("SKIPPED: no /dev/full");
     return;
@@ -92,7 +92,7 @@ TEST_CASE("A full disk is an error of every writer, which names the file", "[io]
   CHECK_THROWS_WITH(write_float_image("/dev/full", {{"Y", &map}}), fault);
 }
 
-TEST_CASE("A folder that is not there is an error of every writer, which names the file", "[io]") {
+TEST_CASE("A folder that is not there is an error of every writer, which names the file", "[files]") {
   const ScratchFolder scratch;
   const auto path = scratch / "absent/map.png";
   const Map map(2, 2);
@@ -101,7 +101,7 @@ TEST_CASE("A folder that is not there is an error of every writer, which names t
   CHECK_THROWS_WITH(write_float_image(path, {{"Y", &map}}), Contains(path.string()));
 }
 
-TEST_CASE("SHA-256 agrees with the vectors of FIPS 180-4", "[io]") {
+TEST_CASE("SHA-256 agrees with the vectors of FIPS 180-4", "[files]") {
   const ScratchFolder scratch;
   CHECK(sha256_of_file(write_text(scratch / "abc", "abc")) ==
         "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");

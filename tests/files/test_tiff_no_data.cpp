@@ -35,7 +35,7 @@ constexpr int kText = 2;
 
 }  // namespace
 
-TEST_CASE("GDAL's no-data tag is found in either byte order, inside its entry or apart from it", "[io]") {
+TEST_CASE("GDAL's no-data tag is found in either byte order, inside its entry or apart from it", "[files]") {
   const ScratchFolder scratch;
   const bool little = GENERATE(true, false);
   const std::string order = little ? "II" : "MM";
@@ -52,7 +52,7 @@ TEST_CASE("GDAL's no-data tag is found in either byte order, inside its entry or
   CHECK(read_tiff_no_data(write_text(scratch / "inside.tif", inside.bytes())) == -1.0);
 }
 
-TEST_CASE("GDAL's no-data tag is found in BigTIFF", "[io]") {
+TEST_CASE("GDAL's no-data tag is found in BigTIFF", "[files]") {
   const ScratchFolder scratch;
   TiffText big(true);
   big.add("II").add(43, 2).add(8, 2).add(0, 2).add(16, 8).add(1, 8);
@@ -60,7 +60,7 @@ TEST_CASE("GDAL's no-data tag is found in BigTIFF", "[io]") {
   CHECK(read_tiff_no_data(write_text(scratch / "big.tif", big.bytes())) == -9999.0);
 }
 
-TEST_CASE("A TIFF without the tag, cut short, or with words in it declares nothing", "[io]") {
+TEST_CASE("A TIFF without the tag, cut short, or with words in it declares nothing", "[files]") {
   const ScratchFolder scratch;
   TiffText none(true);
   none.add("II").add(42, 2).add(8, 4).add(1, 2).add(256, 2).add(4, 2).add(1, 4).add(5, 4).add(0, 4);

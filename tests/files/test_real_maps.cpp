@@ -14,7 +14,7 @@ constexpr std::uint64_t kGigabyte = std::uint64_t{1} << 30;
 
 }  // namespace
 
-TEST_CASE("Real material maps load, and tile", "[heightmap][shared]") {
+TEST_CASE("Real material maps load, and tile", "[files][shared]") {
   const auto [name, width, height, bits] =
       GENERATE(table<std::string, int, int, int>({{"material/DiamondPlate008C_height16.png", 1024, 1024, 16},
                                                   {"material/Ground054_height16.png", 1024, 1024, 16},
@@ -36,7 +36,7 @@ TEST_CASE("Real material maps load, and tile", "[heightmap][shared]") {
   CHECK(measure_edge_steps(loaded.map.height).wraps);
 }
 
-TEST_CASE("The 8-bit Ground054 is the 16-bit one in fewer levels", "[heightmap][shared]") {
+TEST_CASE("The 8-bit Ground054 is the 16-bit one in fewer levels", "[files][shared]") {
   const auto coarse = find_shared_data("material/Ground054_height.jpg");
   const auto fine = find_shared_data("material/Ground054_height16.png");
   if (!coarse || !fine) return;
@@ -44,7 +44,7 @@ TEST_CASE("The 8-bit Ground054 is the 16-bit one in fewer levels", "[heightmap][
   CHECK(load_heightmap(*fine, {}, kGigabyte).facts.levels > 40'000);
 }
 
-TEST_CASE("Real terrain loads with its heights and its holes", "[heightmap][shared]") {
+TEST_CASE("Real terrain loads with its heights and its holes", "[files][shared]") {
   const auto [name, lowest, highest, missing] = GENERATE(
       table<std::string, double, double, std::size_t>({{"terrain/lakes_dem.tif", 2383.85, 3581.19, 0},
                                                        {"terrain/DSM_PHR_Dunkerque.tif", 33.78, 68.92, 1005},
@@ -60,7 +60,7 @@ TEST_CASE("Real terrain loads with its heights and its holes", "[heightmap][shar
   CHECK_FALSE(measure_edge_steps(loaded.map.height).wraps);
 }
 
-TEST_CASE("Half of hugo_site is missing once its undeclared no-data value is given", "[heightmap][shared]") {
+TEST_CASE("Half of hugo_site is missing once its undeclared no-data value is given", "[files][shared]") {
   const auto path = find_shared_data("terrain/hugo_site_filled.asc");
   if (!path) return;
   LoadOptions options;
@@ -74,7 +74,7 @@ TEST_CASE("Half of hugo_site is missing once its undeclared no-data value is giv
   CHECK(relief(loaded.map) == 51);
 }
 
-TEST_CASE("Boulder's cells in degrees are refused with their size in metres", "[heightmap][shared]") {
+TEST_CASE("Boulder's cells in degrees are refused with their size in metres", "[files][shared]") {
   const auto path = find_shared_data("terrain/SRTMGL3_boulder.asc");
   if (!path) return;
   CHECK_THROWS_WITH(load_heightmap(*path, {}, kGigabyte), Contains("SRTMGL3_boulder.asc"));

@@ -20,7 +20,7 @@ EsriGrid read(const ScratchFolder& scratch, const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("A grid is read with its first row on top", "[io]") {
+TEST_CASE("A grid is read with its first row on top", "[files]") {
   const ScratchFolder scratch;
   const EsriGrid grid = read(scratch, kHeader + "NODATA_value -9999\n1 2 3\n4 -9999 6\n");
   CHECK(grid.values.width == 3);
@@ -33,7 +33,7 @@ TEST_CASE("A grid is read with its first row on top", "[io]") {
   CHECK(*grid.header.no_data == -9999);
 }
 
-TEST_CASE("Keywords have any case and order, and white space any shape", "[io]") {
+TEST_CASE("Keywords have any case and order, and white space any shape", "[files]") {
   const ScratchFolder scratch;
   const EsriGrid grid = read(
       scratch,
@@ -46,14 +46,14 @@ TEST_CASE("Keywords have any case and order, and white space any shape", "[io]")
   CHECK_FALSE(grid.header.no_data);
 }
 
-TEST_CASE("NaN is a value of a grid, and of its no-data line", "[io]") {
+TEST_CASE("NaN is a value of a grid, and of its no-data line", "[files]") {
   const ScratchFolder scratch;
   const EsriGrid grid = read(scratch, "ncols 2\nnrows 1\ncellsize 1\nNODATA_value nan\nnan 2\n");
   CHECK(std::isnan(grid.values.values[0]));
   CHECK(std::isnan(*grid.header.no_data));
 }
 
-TEST_CASE("A grid longer than the reader's block keeps every value", "[io]") {
+TEST_CASE("A grid longer than the reader's block keeps every value", "[files]") {
   const ScratchFolder scratch;
   constexpr int kSide = 600;
   std::string text = "ncols 600\nnrows 600\ncellsize 1\n";
@@ -65,7 +65,7 @@ TEST_CASE("A grid longer than the reader's block keeps every value", "[io]") {
   CHECK(same);
 }
 
-TEST_CASE("A fault in a grid is named with the file, the line and the word", "[io]") {
+TEST_CASE("A fault in a grid is named with the file, the line and the word", "[files]") {
   const ScratchFolder scratch;
   const auto fault = [&](const std::string& text, const std::string& place, const std::string& reason) {
     CAPTURE(text);
@@ -90,7 +90,7 @@ TEST_CASE("A fault in a grid is named with the file, the line and the word", "[i
   fault("ncols 1\nnrows 1\ncellsize 1\n\x01z", "line 4", "\'?z\' is not a number");
 }
 
-TEST_CASE("A header that announces more than its file can hold takes no memory", "[io]") {
+TEST_CASE("A header that announces more than its file can hold takes no memory", "[files]") {
   const ScratchFolder scratch;
   CHECK_THROWS_WITH(read(scratch, "ncols 9000\nnrows 9000\ncellsize 1\n1 2 3\n"), Contains("too few values"));
   CHECK_THAT(remedy_of([&] { read(scratch, "ncols 40000\nnrows 40000\ncellsize 1\n1 2 3\n"); }),
@@ -98,7 +98,7 @@ TEST_CASE("A header that announces more than its file can hold takes no memory",
   CHECK_THROWS_WITH(read(scratch, "ncols 4000000\nnrows 4\ncellsize 1\n1 2 3\n"), Contains("too many"));
 }
 
-TEST_CASE("A file of one endless word is refused", "[io]") {
+TEST_CASE("A file of one endless word is refused", "[files]") {
   const ScratchFolder scratch;
   CHECK_THROWS_WITH(read(scratch, kHeader + std::string(3 << 20, '7')),
                     Contains("grid.asc") && Contains("line 6"));

@@ -41,7 +41,7 @@ ModelInputs inputs(double ao, double other) {
 }  // namespace
 
 TEST_CASE("closed forms are finite, in [0, 1] and rise with albedo, to the edges of their domain",
-          "[models]") {
+          "[forms]") {
   for (const ClosedForm& form : closed_forms()) {
     for (const double ao : kEdges) {
       for (const double other : {0.0, 1e-7, 0.3, 1 - 1e-7, 1.0}) {
@@ -62,7 +62,7 @@ TEST_CASE("closed forms are finite, in [0, 1] and rise with albedo, to the edges
   }
 }
 
-TEST_CASE("the notes' form says nothing outside its domain, and guarded it is continuous there", "[models]") {
+TEST_CASE("the notes' form says nothing outside its domain, and guarded it is continuous there", "[forms]") {
   const std::vector<double> outside = {0.9494, 0.957, 0.9703, 0.993, 1 - 1e-7, 1, 1 + 1e-7};
   for (const double alpha : outside) {
     CAPTURE(alpha);
@@ -84,7 +84,7 @@ TEST_CASE("the notes' form says nothing outside its domain, and guarded it is co
   }
 }
 
-TEST_CASE("the notes' form is its equations, word by word", "[models]") {
+TEST_CASE("the notes' form is its equations, word by word", "[forms]") {
   for (const double a : {0.05, 0.3, 0.6, 0.8, 0.93}) {
     const double f0 = a * (1 + std::pow(1 - a, 0.75) / 2);
     const double f1 =
@@ -98,14 +98,14 @@ TEST_CASE("the notes' form is its equations, word by word", "[models]") {
   }
 }
 
-TEST_CASE("the cubic is eq. 33 with what is wrong of it", "[models]") {
+TEST_CASE("the cubic is eq. 33 with what is wrong of it", "[forms]") {
   CHECK(cubic_total(Sky(0.5), 1.0) == Approx(0.898).margin(5e-4));  // golden, by hand
   CHECK(0.3218 - cubic_total(Sky(0.3218), 0.0) == Approx(0.0443).margin(1e-4));
   CHECK(cubic_total(Sky(1.0), 0.5) == Approx(0.99985).margin(1e-12));
   CHECK(cubic_total(Sky(1.0), 1.0) == 1);
 }
 
-TEST_CASE("what holds at albedo 0 and 1", "[models]") {
+TEST_CASE("what holds at albedo 0 and 1", "[forms]") {
   for (const double a : kEdges) {
     for (const double n : kEdges) {
       INFO("A " << a << " n " << n);
@@ -122,7 +122,7 @@ TEST_CASE("what holds at albedo 0 and 1", "[models]") {
   }
 }
 
-TEST_CASE("bounces of a spherical pit are those of G with n = A", "[models]") {
+TEST_CASE("bounces of a spherical pit are those of G with n = A", "[forms]") {
   // every point of the cap sees the cap alike: E_b/π = (1 − f) f^b
   const double f = 0.35;
   double total = 0;
@@ -130,7 +130,7 @@ TEST_CASE("bounces of a spherical pit are those of G with n = A", "[models]") {
   CHECK(bounced_total(Sky(1 - f), Seen(1 - f), 0.8) == Approx(total).epsilon(1e-13));  // identity
 }
 
-TEST_CASE("n comes back out of a total", "[models]") {
+TEST_CASE("n comes back out of a total", "[forms]") {
   for (const double a : {0.0, 1e-7, 0.2, 0.5, 0.957, 0.993, 1 - 1e-7}) {
     for (const double n : {0.0, 1e-7, 0.1, 0.5, 0.9, 1.0}) {
       for (const double albedo : {1e-3, 0.3, 0.8, 0.999}) {
@@ -149,7 +149,7 @@ TEST_CASE("n comes back out of a total", "[models]") {
   CHECK(seen_from_total(Sky(0.5), 1.1, 0.8).value == 1);
 }
 
-TEST_CASE("missing samples stay missing", "[models]") {
+TEST_CASE("missing samples stay missing", "[forms]") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const ClosedForm& form : closed_forms()) {
     INFO(form.name);
@@ -161,7 +161,7 @@ TEST_CASE("missing samples stay missing", "[models]") {
   CHECK(std::isnan(seen_from_total(Sky(0.5), nan, 0.5).value));
 }
 
-TEST_CASE("single precision keeps to double within 16 ulp of 1", "[models]") {
+TEST_CASE("single precision keeps to double within 16 ulp of 1", "[forms]") {
   // discretisation of floats: inputs are floats already, a handful of operations follow
   const float bound = 4 * std::numeric_limits<float>::epsilon();
   for (int i = 0; i <= 1000; ++i) {
@@ -186,7 +186,7 @@ TEST_CASE("single precision keeps to double within 16 ulp of 1", "[models]") {
   }
 }
 
-TEST_CASE("the ambient transfer sums per hit, and is eq. 12 where nothing is fuzzy", "[models]") {
+TEST_CASE("the ambient transfer sums per hit, and is eq. 12 where nothing is fuzzy", "[forms]") {
   using Hit = Occluder<double>;
   const std::vector<Hit> plain = {{0.1, 0, 0.6}, {0.3, 0, 0.6}};
   CHECK(ambient_transfer(Sky(0.6), plain) == Approx(uniform_neighbourhood(Sky(0.6), 0.6)).epsilon(1e-14));
@@ -200,7 +200,7 @@ TEST_CASE("the ambient transfer sums per hit, and is eq. 12 where nothing is fuz
   CHECK(fuzzy_openness(3.0, 2.0) == 1);
 }
 
-TEST_CASE("bounds of a total hold for any bounces, and for G", "[models]") {
+TEST_CASE("bounds of a total hold for any bounces, and for G", "[forms]") {
   // three decaying series of bounces that sum to 1 − A at albedo 1
   const double a = 0.3;
   const auto total = [a](double first, double last, double share, double albedo) {
@@ -227,7 +227,7 @@ TEST_CASE("bounds of a total hold for any bounces, and for G", "[models]") {
   CHECK(bound_total(Sky(1.0), 1.0, 0.7, 0.5).low == 1);
 }
 
-TEST_CASE("bounds hold on a simulated map, texel by texel", "[models]") {
+TEST_CASE("bounds hold on a simulated map, texel by texel", "[forms]") {
   const Surface surface = build_surface(make_synth_map("brick", 48, Boundary::tile, 0.15));
   const auto transport = build_exact_form_factors(surface, 16, {});
   const std::vector<double> albedos{0.2, 0.5, 0.7, 0.9};
@@ -243,7 +243,7 @@ TEST_CASE("bounds hold on a simulated map, texel by texel", "[models]") {
   }
 }
 
-TEST_CASE("reciprocity: s and the measured n agree where samples resolve the surface", "[models]") {
+TEST_CASE("reciprocity: s and the measured n agree where samples resolve the surface", "[forms]") {
   const Surface surface = build_surface(make_synth_map("sines", 96, Boundary::tile, 0.15));
   const auto transport = build_exact_form_factors(surface, 32, {});
   TexelVector first = transport.gather(transport.direct);
@@ -254,7 +254,7 @@ TEST_CASE("reciprocity: s and the measured n agree where samples resolve the sur
   CHECK(measured == Approx(s).margin(0.01));  // discretisation: texels of 1/96
 }
 
-TEST_CASE("the one number of a map comes back out of its texels", "[models]") {
+TEST_CASE("the one number of a map comes back out of its texels", "[forms]") {
   for (const double t : {0.05, 0.3, 0.7}) {
     SeenMoments moments;
     for (int i = 0; i <= 50; ++i) {
@@ -269,7 +269,7 @@ TEST_CASE("the one number of a map comes back out of its texels", "[models]") {
   CHECK(tune_deep_seen(SeenMoments{}).value == 1);
 }
 
-TEST_CASE("the blur is a mean: constants stay, it commutes with shifts, holes are left out", "[models]") {
+TEST_CASE("the blur is a mean: constants stay, it commutes with shifts, holes are left out", "[forms]") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const Heightmap heights = make_rough_map(24, 17, Boundary::tile, 0.1, 0.1, 5);
   Map sky(24, 17, 0.4F);

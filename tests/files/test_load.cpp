@@ -32,7 +32,7 @@ fs::path write_levels(const ScratchFolder& scratch, int width, int height,
 
 }  // namespace
 
-TEST_CASE("Integer samples are stretched from 0 to a tenth of the width", "[heightmap]") {
+TEST_CASE("Integer samples are stretched from 0 to a tenth of the width", "[files]") {
   const ScratchFolder scratch;
   const LoadedHeightmap loaded = load(write_levels(scratch, 2, 2, {100, 200, 300, 500}));
   CHECK(loaded.map.height.values == std::vector<float>{0, 0.025f, 0.05f, 0.1f});
@@ -50,7 +50,7 @@ TEST_CASE("Integer samples are stretched from 0 to a tenth of the width", "[heig
   CHECK(loaded.facts.sha256.size() == 64);
 }
 
-TEST_CASE("The default relief follows the width, whichever option gives it", "[heightmap]") {
+TEST_CASE("The default relief follows the width, whichever option gives it", "[files]") {
   const ScratchFolder scratch;
   const fs::path path = write_levels(scratch, 4, 1, {0, 1, 2, 3});
   LoadOptions options;
@@ -67,7 +67,7 @@ TEST_CASE("The default relief follows the width, whichever option gives it", "[h
   CHECK(relief(load(path, options).map) == 7);
 }
 
-TEST_CASE("Float samples are heights above their lowest, stretched only on demand", "[heightmap]") {
+TEST_CASE("Float samples are heights above their lowest, stretched only on demand", "[files]") {
   const ScratchFolder scratch;
   const fs::path path = write_samples(scratch / "map.exr", 3, 1, {"Y"}, std::vector<float>{-2, 0, 6});
   const LoadedHeightmap loaded = load(path);
@@ -80,7 +80,7 @@ TEST_CASE("Float samples are heights above their lowest, stretched only on deman
   CHECK(load(path, options).map.base == 0);
 }
 
-TEST_CASE("Inverting turns the highest sample into the lowest place", "[heightmap]") {
+TEST_CASE("Inverting turns the highest sample into the lowest place", "[files]") {
   const ScratchFolder scratch;
   LoadOptions options;
   options.invert = true;
@@ -92,7 +92,7 @@ TEST_CASE("Inverting turns the highest sample into the lowest place", "[heightma
   CHECK(depths.map.base == -5);  // the depth 5 is the height −5
 }
 
-TEST_CASE("Small relief on a large offset keeps its digits", "[heightmap]") {
+TEST_CASE("Small relief on a large offset keeps its digits", "[files]") {
   const ScratchFolder scratch;
   const fs::path path = write_text(scratch / "grid.asc",
                                    "ncols 3\nnrows 1\ncellsize 1\n1000000.0001 1000000.00037 1000000.001\n");
@@ -105,7 +105,7 @@ TEST_CASE("Small relief on a large offset keeps its digits", "[heightmap]") {
 }
 
 TEST_CASE("A grid brings its own spacing and stands alone; its rows keep their proportion under --width",
-          "[heightmap]") {
+          "[files]") {
   const ScratchFolder scratch;
   const fs::path path = write_text(scratch / "grid.asc", "ncols 2\nnrows 3\ndx 10\ndy 20\n1 2\n3 4\n5 6\n");
   const LoadedHeightmap loaded = load(path);
@@ -129,7 +129,7 @@ TEST_CASE("A grid brings its own spacing and stands alone; its rows keep their p
   CHECK(load(path, options).map.boundary == Boundary::tile);
 }
 
-TEST_CASE("No-data goes missing whether the header, the user or NaN says so", "[heightmap]") {
+TEST_CASE("No-data goes missing whether the header, the user or NaN says so", "[files]") {
   const ScratchFolder scratch;
   const std::string size = "ncols 4\nnrows 1\ncellsize 1\n";
   const std::string values = "-9999 5 -1 7\n";
@@ -149,7 +149,7 @@ TEST_CASE("No-data goes missing whether the header, the user or NaN says so", "[
   CHECK(load(scratch / "a.asc", options).facts.declared_no_data == -9999);
 }
 
-TEST_CASE("NaN and infinities of a float file are missing", "[heightmap]") {
+TEST_CASE("NaN and infinities of a float file are missing", "[files]") {
   const ScratchFolder scratch;
   const float infinity = std::numeric_limits<float>::infinity();
   const std::vector<float> samples{1, kNan, infinity, -infinity, 3};
@@ -160,7 +160,7 @@ TEST_CASE("NaN and infinities of a float file are missing", "[heightmap]") {
   CHECK(relief(loaded.map) == 2);
 }
 
-TEST_CASE("A no-data value in decimals means the nearest float", "[heightmap]") {
+TEST_CASE("A no-data value in decimals means the nearest float", "[files]") {
   const ScratchFolder scratch;
   const fs::path path = write_samples(scratch / "map.tif", 3, 1, {"Y"}, std::vector<float>{-0.1f, 1, 2});
   LoadOptions options;
@@ -168,13 +168,13 @@ TEST_CASE("A no-data value in decimals means the nearest float", "[heightmap]") 
   CHECK(count_missing(load(path, options).map) == 1);
 }
 
-TEST_CASE("A map of nothing but missing samples is refused", "[heightmap]") {
+TEST_CASE("A map of nothing but missing samples is refused", "[files]") {
   const ScratchFolder scratch;
   const fs::path path = write_samples(scratch / "nothing.exr", 2, 1, {"Y"}, std::vector<float>{kNan, kNan});
   CHECK_THROWS_WITH(load(path), Contains("nothing.exr") && Contains("missing"));
 }
 
-TEST_CASE("A level map stays level, with a relief or without", "[heightmap]") {
+TEST_CASE("A level map stays level, with a relief or without", "[files]") {
   const ScratchFolder scratch;
   const fs::path path = write_levels(scratch, 2, 2, {7, 7, 7, 7});
   LoadOptions options;
@@ -184,14 +184,14 @@ TEST_CASE("A level map stays level, with a relief or without", "[heightmap]") {
   CHECK(load(path).facts.levels == 1);
 }
 
-TEST_CASE("One column or one row is a map", "[heightmap]") {
+TEST_CASE("One column or one row is a map", "[files]") {
   const ScratchFolder scratch;
   CHECK(load(write_levels(scratch, 1, 3, {0, 1, 2})).map.height.height == 3);
   CHECK(load(write_levels(scratch, 3, 1, {0, 1, 2})).map.height.width == 3);
   CHECK(load(write_levels(scratch, 1, 1, {5})).map.height.size() == 1);
 }
 
-TEST_CASE("Options outside their range are wrong usage", "[heightmap]") {
+TEST_CASE("Options outside their range are wrong usage", "[files]") {
   const ScratchFolder scratch;
   const fs::path path = write_levels(scratch, 2, 1, {0, 1});
   const auto refuse = [&](const LoadOptions& options, const std::string& name) {
@@ -215,13 +215,13 @@ TEST_CASE("Options outside their range are wrong usage", "[heightmap]") {
   refuse(both, "width: excludes a texel");
 }
 
-TEST_CASE("Heights that single precision cannot hold are refused", "[heightmap]") {
+TEST_CASE("Heights that single precision cannot hold are refused", "[files]") {
   const ScratchFolder scratch;
   const fs::path path = write_samples(scratch / "vast.tif", 1, 2, {"Y"}, std::vector<double>{-1e300, 1e300});
   CHECK_THROWS_WITH(load(path), Contains("vast.tif") && Contains("single precision"));
 }
 
-TEST_CASE("The memory limit holds for a whole load", "[heightmap]") {
+TEST_CASE("The memory limit holds for a whole load", "[files]") {
   const ScratchFolder scratch;
   const fs::path path = write_levels(scratch, 100, 100, std::vector<std::uint16_t>(10'000, 1));
   CHECK_THROWS_WITH(load_heightmap(path, {}, 50'000), Contains("levels.png"));
