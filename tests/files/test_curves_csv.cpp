@@ -10,7 +10,8 @@ using Catch::Contains;
 
 namespace {
 
-constexpr const char* kHeader = "ao_kind,bin,ao_lo,ao_hi,ao_mean,count,bounce,mean,stddev,p05,p50,p95\n";
+constexpr const char* kExpectedHeader =
+    "ao_kind,bin,ao_lo,ao_hi,ao_mean,count,bounce,mean,stddev,p05,p50,p95\n";
 
 BounceCurves two_bins(AoKind kind) {
   BounceCurves curves;
@@ -33,7 +34,7 @@ TEST_CASE("A curves file is one line per filled bin and bounce, one kind below t
       ",0,0,0.3333333333333333,0.1,4,1,1e-300,0,0.3333333333333333,2,1e+22\n"
       ",2,0.6666666666666666,1,0.75,1,0,0.25,0,0.25,0.25,0.25\n"
       ",2,0.6666666666666666,1,0.75,1,1,0,0,0,0,0\n";
-  std::string expected = kHeader;
+  std::string expected = kExpectedHeader;
   for (const char* kind : {"ambient_occlusion", "sky_view_factor"}) {
     std::istringstream stream(lines);
     for (std::string line; std::getline(stream, line);) expected += kind + line + '\n';
@@ -65,7 +66,7 @@ TEST_CASE("Every double of a curves file reads back as it was", "[files]") {
 TEST_CASE("Without filled bins a curves file is its header", "[files]") {
   const ScratchFolder scratch;
   write_curves_csv(scratch / "curves.csv", {BounceCurves{}});
-  CHECK(read_text(scratch / "curves.csv") == kHeader);
+  CHECK(read_text(scratch / "curves.csv") == kExpectedHeader);
 }
 
 TEST_CASE("A curves file that cannot be written is an error which names it", "[files]") {

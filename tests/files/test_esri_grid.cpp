@@ -11,18 +11,18 @@ using Catch::Contains;
 
 namespace {
 
-constexpr std::uint64_t kPlenty = 1 << 30;
-const std::string kHeader = "ncols 3\nnrows 2\nxllcorner 100\nyllcorner 200\ncellsize 10\n";
+constexpr std::uint64_t kGridMemory = 1 << 30;
+const std::string kGridHeader = "ncols 3\nnrows 2\nxllcorner 100\nyllcorner 200\ncellsize 10\n";
 
 EsriGrid read(const ScratchFolder& scratch, const std::string& text) {
-  return read_esri_grid(write_text(scratch / "grid.asc", text), kPlenty);
+  return read_esri_grid(write_text(scratch / "grid.asc", text), kGridMemory);
 }
 
 }  // namespace
 
 TEST_CASE("A grid is read with its first row on top", "[files]") {
   const ScratchFolder scratch;
-  const EsriGrid grid = read(scratch, kHeader + "NODATA_value -9999\n1 2 3\n4 -9999 6\n");
+  const EsriGrid grid = read(scratch, kGridHeader + "NODATA_value -9999\n1 2 3\n4 -9999 6\n");
   CHECK(grid.values.width == 3);
   CHECK(grid.values.height == 2);
   CHECK(grid.values.values == std::vector<double>{1, 2, 3, 4, -9999, 6});
@@ -71,12 +71,12 @@ TEST_CASE("A fault in a grid is named with the file, the line and the word", "[f
     CAPTURE(text);
     CHECK_THROWS_WITH(read(scratch, text), Contains("grid.asc") && Contains(place) && Contains(reason));
   };
-  fault(kHeader + "1 2 3\n4 5\n", "line 8", "ends after 5 values");
-  fault(kHeader + "1 2 3\n4 5 6\n7\n", "line 8", "more values than the 3 x 2");
-  fault(kHeader + "1 2 3\n4 five 6\n", "line 7", "'five' is not a number");
-  fault(kHeader + "1 2 3\n4 5,5 6\n", "line 7", "'5,5' is not a number");
-  fault(kHeader + "1 2 3\n4 0x5 6\n", "line 7", "'0x5'");
-  fault(kHeader + "1 2 3\n4 1e999 6\n", "line 7", "out of the range");
+  fault(kGridHeader + "1 2 3\n4 5\n", "line 8", "ends after 5 values");
+  fault(kGridHeader + "1 2 3\n4 5 6\n7\n", "line 8", "more values than the 3 x 2");
+  fault(kGridHeader + "1 2 3\n4 five 6\n", "line 7", "'five' is not a number");
+  fault(kGridHeader + "1 2 3\n4 5,5 6\n", "line 7", "'5,5' is not a number");
+  fault(kGridHeader + "1 2 3\n4 0x5 6\n", "line 7", "'0x5'");
+  fault(kGridHeader + "1 2 3\n4 1e999 6\n", "line 7", "out of the range");
   fault("ncols 3\nncols 3\n", "line 2", "twice");
   fault("ncols 3\nnrows two\n", "line 2", "'two' is not a number");
   fault("ncols 3\nnrows", "line 2", "ends within its header");
@@ -100,6 +100,6 @@ TEST_CASE("A header that announces more than its file can hold takes no memory",
 
 TEST_CASE("A file of one endless word is refused", "[files]") {
   const ScratchFolder scratch;
-  CHECK_THROWS_WITH(read(scratch, kHeader + std::string(3 << 20, '7')),
+  CHECK_THROWS_WITH(read(scratch, kGridHeader + std::string(3 << 20, '7')),
                     Contains("grid.asc") && Contains("line 6"));
 }

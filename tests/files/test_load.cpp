@@ -15,11 +15,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::uint64_t kPlenty = 1 << 30;
+constexpr std::uint64_t kLoadMemory = 1 << 30;
 const float kNan = std::numeric_limits<float>::quiet_NaN();
 
 LoadedHeightmap load(const fs::path& path, const LoadOptions& options = {}) {
-  return load_heightmap(path, options, kPlenty);
+  return load_heightmap(path, options, kLoadMemory);
 }
 
 fs::path write_levels(const ScratchFolder& scratch, int width, int height,

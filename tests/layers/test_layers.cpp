@@ -83,6 +83,16 @@ const std::map<std::string, Names> kUsers = {
     {"unsupported/Eigen/", {"fit"}},
 };
 
+constexpr const char* kPublicFolder = "heightlight/";
+
+/// A source's name relative to the folder that holds its layer.
+std::string strip_group(const std::string& name) {
+  for (const std::string& group : kGroups) {
+    if (name.starts_with(group)) return name.substr(group.size());
+  }
+  return name;
+}
+
 /// The layer of a header as written after #include, or of a source without its group's folder; empty where it
 /// has none.
 std::string layer_of(const std::string& name) {
