@@ -166,7 +166,9 @@ TEST_CASE("light of one's own bounces like the sky's", "[solve]") {
   const Results by_sky = solve(surface, request);
   request.wanted.direct.assign(by_sky.sky_view_factor.values.begin(), by_sky.sky_view_factor.values.end());
   const Results by_own = solve(surface, request);
-  CHECK(largest_difference(by_own.totals[0][0], by_sky.totals[0][0]) < 1e-5);
+  // The sky's bounces end by what energy says is left, one's own by a bound of it: within a share of the
+  // error.
+  CHECK(largest_difference(by_own.totals[0][0], by_sky.totals[0][0]) < 0.2 * request.accuracy.error);
   CHECK(by_own.evidence.total_checks[0].total_rmse < 0.01);
   for (double& value : request.wanted.direct) value *= 2;
   const Results twice = solve(surface, request);
@@ -305,7 +307,7 @@ TEST_CASE("memory that does not do is refused before any is taken", "[solve]") {
     FAIL("nothing was refused");
   } catch (const MemoryError& error) {
     CHECK(error.remedy == "memory");
-    CHECK_THAT(error.what(), Catch::Contains("64 × 64") && Catch::Contains("KiB"));
+    CHECK_THAT(error.what(), Catch::Contains("64 × 64") && Catch::Contains("MiB"));
   }
   // Room for everything but links: they are walked again, and the results are the same.
   request.limits.memory = needed + 1;

@@ -15,9 +15,11 @@ ClosedForm make_form(const FormText& text, AoKind kind, ExtraInput extra, Evalua
           .source = text.source,
           .kind = kind,
           .extra = extra,
-          .evaluate = [evaluate](Inputs in, double albedo) -> std::optional<double> {
+          .evaluate = [evaluate, kind](Inputs in, double albedo) -> std::optional<double> {
             const double total = evaluate(in, albedo);
-            if (std::isnan(total)) return std::nullopt;
+            const bool missing = std::isnan(kind == AoKind::ambient_occlusion ? in.ambient_occlusion.value
+                                                                              : in.sky_view_factor.value);
+            if (std::isnan(total) && !missing) return std::nullopt;
             return total;
           }};
 }

@@ -1,6 +1,7 @@
 #include "heightlight/solve.h"
 #include "solve/solver.h"
 #include "surface/maximum_pyramid.h"
+#include "transport/horizon_pilot.h"
 #include "transport/light_mips.h"
 #include "visibility/height_mips.h"
 #include "visibility/horizon_sky.h"
@@ -51,11 +52,14 @@ std::uint64_t light_bytes(const Request& request) {
 std::uint64_t estimate_memory(int width, int height, const Request& request) {
   const Wanted& wanted = request.wanted;
   const auto texels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
-  std::uint64_t per_texel =
-      kMap + sizeof(Vector3) + horizon_sky_bytes(wanted.moments) + kMap * wanted.horizon_rad.size();
-  std::uint64_t pyramids = 2 * height_mips_bytes(width, height);  // the pilot's and the operator's
-  // Exact walks, which are the pilot's and the checks' too.
-  pyramids += maximum_pyramid_bytes(width, height);
+  std::uint64_t per_texel = kMap + sizeof(Vector3);
+  const bool wants_sky = wanted.sky || wanted.moments.first || wanted.moments.second;
+  if (!wants_sky && wanted.horizon_rad.empty() && !needs_operator(wanted)) return texels * per_texel;
+  per_texel += horizon_sky_bytes(wanted.moments) + kMap * wanted.horizon_rad.size();
+  std::uint64_t pyramids = height_mips_bytes(width, height);
+  pyramids += maximum_pyramid_bytes(width, height);  // of exact walks: the pilot's, the checks'
+  if (request.accuracy.visibility == Visibility::horizon_walks)
+    pyramids += horizon_pilot_bytes(width, height);
   if (needs_operator(wanted)) {
     per_texel += kVector + light_bytes(request);  // the direct light
     // What each receiver sees, and the light that it sees it by.

@@ -62,6 +62,13 @@ double sky_by_even_azimuths(const ExactWalker& walker, const Vector3& normal, co
 
 }  // namespace
 
+std::uint64_t horizon_pilot_bytes(int width, int height) {
+  const double stretches = 2 * std::sqrt(std::max(width, height));
+  const double profiles = static_cast<double>(kStrips * kExactPerStrip * HorizonPilot::kExactAzimuths);
+  const double views = profiles * (stretches * sizeof(VisibleInterval) + sizeof(double));
+  return height_mips_bytes(width, height) + static_cast<std::uint64_t>(views);
+}
+
 double root_mean_square(const std::vector<double>& errors) {
   double squares = 0;
   for (const double error : errors) squares += error * error;
@@ -99,11 +106,13 @@ HorizonPilot::HorizonPilot(const Surface& surface, std::uint64_t seed, const Wat
         const int row = frame.first_row + receiver.row;
         const int column = frame.first_column + receiver.column;
         walker.view(row, column, receiver.view);
+        receiver.view.links.shrink_to_fit();
         receiver.even_sky = sky_by_even_azimuths(walker, surface.normal(row, column), receiver.view);
       },
       &progress);
-  std::copy_if(receivers.begin(), receivers.end(), std::back_inserter(exact_),
-               [](const ExactReceiver& receiver) { return !std::isnan(receiver.view.sky_view_factor); });
+  std::erase_if(receivers,
+                [](const ExactReceiver& receiver) { return std::isnan(receiver.view.sky_view_factor); });
+  exact_ = std::move(receivers);
 }
 
 std::vector<float> HorizonPilot::walk_sky_of(const WalkOptions& options, EvenWalk* even) {

@@ -24,6 +24,10 @@ struct SamplingError {
   double at(int azimuths) const { return std::hypot(shared, own / std::sqrt(azimuths)); }
 };
 
+/// Bytes that a pilot of such a map holds, most of them for what its receivers see. A profile over n texels
+/// has about 2 √n stretches in view where the ground is fractal, and fewer elsewhere.
+std::uint64_t horizon_pilot_bytes(int width, int height);
+
 /// Receivers on which ways of walking are tried before the whole map is walked: strips of tiles, and among
 /// them some that are walked exactly too.
 class HorizonPilot {

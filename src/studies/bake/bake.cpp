@@ -88,7 +88,8 @@ std::vector<std::string> find_warnings(const SourceFacts& facts, const Heightmap
   if (relief(map) == 0) warnings.push_back("the map is level: everything is open");
   const bool tiles = map.boundary == Boundary::tile;
   if (tiles && !measure_edge_steps(map.height).wraps) {
-    warnings.push_back("the map is to tile, but its edges do not meet; --boundary open if it stands alone");
+    warnings.push_back(
+        "the map is to tile, but its edges do not meet; it should have open edges if it stands alone");
   }
   if (options.dither && tiles &&
       (map.height.width % kDitherSide != 0 || map.height.height % kDitherSide != 0)) {
@@ -109,7 +110,7 @@ void write_shaders(StagedFolder& folder) {
 const std::vector<MaterialMapName>& material_maps() {
   static const std::vector<MaterialMapName> kMaps{
       {MaterialMap::ao, "ao", "ambient occlusion, 1 = open"},
-      {MaterialMap::multibounce, "multibounce", "irradiance of all bounces at --albedo, 1 = unoccluded"},
+      {MaterialMap::multibounce, "multibounce", "irradiance of all bounces at the albedo, 1 = unoccluded"},
       {MaterialMap::bent_normal, "bent-normal", "mean direction of the sky that is seen"},
       {MaterialMap::bent_cone, "bent-cone", "the same, with the half-angle of a cone in alpha"},
       {MaterialMap::normal, "normal", "normal of the surface"},
