@@ -6,6 +6,8 @@
 #include <stb/stb_image_write.h>
 #pragma GCC diagnostic pop
 
+#include <cassert>
+
 #include "files/image_file.h"
 #include "files/output_file.h"
 
@@ -13,6 +15,7 @@ namespace heightlight {
 
 void write_png(const std::filesystem::path& path, const Image<Rgb8>& picture) {
   static_assert(sizeof(Rgb8) == 3, "stb takes packed pixels");
+  assert(picture.width > 0 && picture.height > 0);
   write_file(path, [&](std::FILE* stream) {
     const auto append = [](void* context, void* data, int size) {
       std::fwrite(data, 1, static_cast<std::size_t>(size), static_cast<std::FILE*>(context));
