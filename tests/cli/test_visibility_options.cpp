@@ -89,7 +89,8 @@ TEST_CASE("with too little memory for links they are walked again, and the resul
   REQUIRE(run_command("synth brick -o b.png --size 192", folder).exit_code == 0);
   const nlohmann::json plenty =
       simulate(folder, "b.png", "plenty", "--error 0.01 --save-bounces --bounces 3");
-  // 393 bytes per texel are for everything else, of so small a map mostly the pilot's views; few are for links.
+  // 393 bytes per texel are for everything else, of so small a map mostly the pilot's views; few are for
+  // links.
   const std::string memory = std::to_string(192 * 192 * 400);
   const nlohmann::json little =
       simulate(folder, "b.png", "little", "--error 0.01 --save-bounces --bounces 3 --memory " + memory);
