@@ -20,6 +20,13 @@ struct Albedo {
   std::size_t channels() const { return constant.size() + varying.size(); }
 };
 
+/// A system E = direct + F ρ E, of one channel.
+struct LightSystem {
+  const TexelVector* direct = nullptr;   ///< E₀/π of light of one's own; null: the sky's
+  double albedo = 0;                     ///< where it is the same everywhere
+  const TexelVector* varying = nullptr;  ///< ρ per texel, where it is not
+};
+
 /// The operator F that carries irradiance from bounce to bounce, and the sky's share of every receiver:
 /// sky_view_factor_i + Σ_j F_ij = 1. Whatever finds visibility ends in one of these; bounces don't know
 /// which.

@@ -61,6 +61,7 @@ double ExactWalker::horizon_rad(int row, int column, double azimuth_rad) const {
 void ExactWalker::view(int row, int column, SliceView& view) const {
   view.horizon_rad.clear();
   view.links.clear();
+  view.links_end.clear();
   if (std::isnan(surface_.map.height(row, column))) {
     view.ambient_occlusion = view.sky_view_factor = kNothingKnown;
     view.bent_normal.setConstant(kNothingKnown);
@@ -99,6 +100,7 @@ void ExactWalker::view(int row, int column, SliceView& view) const {
           {cosine_mass(in_slice, from, to), place_between(stretch.begin, stretch.end, share)});
       from = to;
     }
+    view.links_end.push_back(view.links.size());
   }
   for (VisibleInterval& link : view.links) link.weight /= hemisphere_mass;
   view.ambient_occlusion = sky_angle / hemisphere_angle;

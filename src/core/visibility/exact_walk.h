@@ -41,6 +41,7 @@ struct SliceView {
   std::vector<double> horizon_rad;  ///< per azimuth: elevation of the profile's steepest point, which may be
                                     ///< below the tangent plane; −π/2 where there is no surface
   std::vector<VisibleInterval> links;  ///< by azimuth, each from below upwards
+  std::vector<std::size_t> links_end;  ///< of each azimuth: behind its last link
 };
 
 /// Walks from the vertices of a surface. Holds what all receivers share; the surface must outlive it.

@@ -150,33 +150,38 @@ TileFrame TileGrid::frame(std::int64_t i) const {
   return frame;
 }
 
-void WalkTile::load(const Surface& surface, const HeightMips& mips, const WalkOptions& options, int rings,
-                    const TileFrame& frame) {
+void ReceiverTile::load_receivers(const Surface& surface, float reference, const TileFrame& frame) {
   static_cast<TileFrame&>(*this) = frame;
-  const int row = first_row;
-  const int column = first_column;
   const Image<float>& map = surface.map.height;
-  float reference =
-      0;  // a height of the tile's own, so that what is level stays so and digits go to differences
-  for (int i = 0; i < rows * columns; ++i) {
-    const float value = map(row + i / columns, column + i % columns);
-    if (std::isnan(value)) continue;
-    reference = value;
-    break;
-  }
   for (int i = 0; i < kSide; ++i) {
     for (int j = 0; j < kSide; ++j) {
       const auto at = static_cast<std::size_t>(i * kSide + j);
       const bool inside = i < rows && j < columns;
-      present[at] = inside && !std::isnan(map(row + i, column + j));
-      height[at] = present[at] ? map(row + i, column + j) - reference : -kNoHeight;
-      const Vector3 normal = present[at] ? surface.normal(row + i, column + j) : Vector3{0, 0, 1};
+      present[at] = inside && !std::isnan(map(first_row + i, first_column + j));
+      height[at] = present[at] ? map(first_row + i, first_column + j) - reference : -kNoHeight;
+      const Vector3 normal = present[at] ? surface.normal(first_row + i, first_column + j) : Vector3{0, 0, 1};
       const float falls = -1 / normal.z;
       slope_x[at] = falls * normal.x;
       slope_y[at] = falls * normal.y;
       normal_z[at] = normal.z;
     }
   }
+}
+
+void WalkTile::load(const Surface& surface, const HeightMips& mips, const WalkOptions& options, int rings,
+                    const TileFrame& frame) {
+  const int row = frame.first_row;
+  const int column = frame.first_column;
+  const Image<float>& map = surface.map.height;
+  float reference =
+      0;  // a height of the tile's own, so that what is level stays so and digits go to differences
+  for (int i = 0; i < frame.rows * frame.columns; ++i) {
+    const float value = map(row + i / frame.columns, column + i % frame.columns);
+    if (std::isnan(value)) continue;
+    reference = value;
+    break;
+  }
+  load_receivers(surface, reference, frame);
   groups = span_groups(*this, kGroup);
   wide_groups = span_groups(*this, kWideGroup);
   windows.resize(static_cast<std::size_t>(rings) + 1);

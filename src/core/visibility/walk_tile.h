@@ -66,21 +66,26 @@ struct TileGrid {
   TileFrame frame(std::int64_t i) const;
 };
 
-/// Receivers of kSide × kSide texels, laid out for vectors, with the heights around them copied from the map:
-/// borders, holes and wrapping are dealt with here, so that walks need not know of them.
-struct WalkTile : TileFrame {
+/// Receivers of kSide × kSide texels, laid out for vectors: row-major, kSide per row.
+struct ReceiverTile : TileFrame {
   static constexpr int kTexels = kSide * kSide;
-  static constexpr int kGroup = 4;
-  static constexpr int kWideGroup = 8;
-  static constexpr float kLift = 0.2F;
 
-  // Per receiver, row-major, kSide per row.
-  alignas(64) std::array<float, kTexels> height;  ///< above the tile's reference; −kNoHeight where missing,
-                                                  ///< which sees nothing
+  alignas(64) std::array<float, kTexels> height;  ///< above a reference; −kNoHeight where missing, which sees
+                                                  ///< nothing
   alignas(64) std::array<float, kTexels> slope_x;  ///< of the plane that the normal stands on, per world unit
   alignas(64) std::array<float, kTexels> slope_y;
   alignas(64) std::array<float, kTexels> normal_z;
   std::array<bool, kTexels> present;
+
+  void load_receivers(const Surface& surface, float reference, const TileFrame& frame);
+};
+
+/// Receivers with the heights around them copied from the map: borders, holes and wrapping are dealt with here,
+/// so that walks need not know of them.
+struct WalkTile : ReceiverTile {
+  static constexpr int kGroup = 4;
+  static constexpr int kWideGroup = 8;
+  static constexpr float kLift = 0.2F;
 
   ReceiverGroups groups;       ///< of kGroup a side
   ReceiverGroups wide_groups;  ///< of kWideGroup a side

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "visibility/horizon_scene.h"
+#include "visibility/walk_tile.h"
+
+// What receivers see of a field on the surface, found while walking.
+//
+// Walking outward, the horizon's slope rises from m to m' wherever a new part of the surface comes into sight.
+// That part fills the slice between the two, twice whose irradiance is S(m) − S(m') (sky_walk.h), so that
+//     Σ (S(m) − S(m')) x(place seen)  and  Σ (S(m) − S(m'))
+// over a receiver's azimuths have the mean of x that it sees as their ratio. Its product with 1 − A is F x: how
+// much of the surface is seen is the sky's walk's to say, which has more azimuths.
+
+namespace heightlight {
+
+/// Fields that one walk can gather.
+constexpr std::size_t kMostFields = 4;
+
+/// Receivers that share how many azimuths they walk: so many columns of so many rows.
+constexpr int kGatherBlock = 16;
+constexpr int kGatherBlockRows = 2;
+constexpr int kGatherBlocks = ReceiverTile::kTexels / (kGatherBlock * kGatherBlockRows);
+
+/// Index of the block that the receiver in row i and column j of a tile belongs to.
+constexpr std::size_t gather_block(int i, int j) {
+  return static_cast<std::size_t>(i / kGatherBlockRows * (ReceiverTile::kSide / kGatherBlock) + j / kGatherBlock);
+}
+
+/// Where a walk looks, and reads the field: between two of the map's samples, or at a block.
+struct GatherSample {
+  float way = 0;  ///< texels from the receiver
+  float per_distance = 0;
+  float weight[2] = {0, 0};      ///< near: of each sample's height, over the world distance
+  float share = 0;               ///< near: of the second sample in the field
+  std::int32_t offset[2] = {0, 0};  ///< near: of each sample from the receiver's, in level 0 of a pyramid
+  int level = 0;                 ///< of the block; 0: near
+  int row = 0;                   ///< of a place in the block, texels from the receiver
+  int column = 0;
+};
+
+/// One azimuth's walk: by rising way.
+struct GatherAzimuth {
+  float world_x = 1;  ///< cos φ
+  float world_y = 0;  ///< sin φ, y up the image
+  std::vector<GatherSample> samples;
+  std::size_t lifted = 0;  ///< the first that looks at lifted heights
+  std::size_t near = 0;    ///< the first that looks at a block
+};
+
+/// How a gather walks.
+struct GatherWalk {
+  float least_rise = 0.02F;  ///< β: a rise of a slope m by less than β (1 + m²) waits for the next
+  std::vector<GatherAzimuth> azimuths = {};  ///< such that the first of them, 2^k, are evenly spread, too
+};
+
+/// `azimuths`, in equal steps from `turn` of a step.
+GatherWalk make_gather_walk(const Surface& surface, const WalkOptions& options, double turn,
+                            const FieldPyramid& layout);
+
+/// Sums over azimuths, per receiver of a tile.
+struct GatherSums {
+  using Values = std::array<float, ReceiverTile::kTexels>;
+
+  alignas(64) Values weight;                             ///< Σ (S(m) − S(m'))
+  alignas(64) std::array<Values, kMostFields> weighted;  ///< of each field: Σ (S(m) − S(m')) x
+};
+
+/// What is gathered, and from where.
+struct GatherTask {
+  const ReceiverTile& tile;  ///< heights above the map's base
+  const HorizonScene& scene;
+  const GatherWalk& walk;
+  std::array<const FieldPyramid*, kMostFields> fields = {};
+  std::size_t field_count = 1;
+  std::array<std::uint16_t, kGatherBlocks> azimuths = {};  ///< of each block, the first so many; 0: none
+  float highest = 0;                                      ///< of all heights
+};
+
+/// Sets the sums of all receivers of the tile.
+void walk_gather(const GatherTask& task, GatherSums& sums);
+
+/// The same source with one lane a vector.
+void walk_gather_by_one(const GatherTask& task, GatherSums& sums);
+
+}  // namespace heightlight

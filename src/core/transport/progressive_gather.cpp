@@ -1,0 +1,230 @@
+#include "transport/progressive_gather.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "base/parallel.h"
+#include "heightlight/forms.h"
+
+namespace heightlight {
+namespace {
+
+constexpr int kFewestGathers = 3;
+constexpr int kMostGathers = 64;
+
+/// Share of the error wanted that ending the gathers may take.
+constexpr double kEndShare = 0.5;
+
+/// The weight in the last gather of the sums of the one before, which saw light that is a little more wrong.
+constexpr float kKeptShare = 0.9F;
+
+/// Where a system is on its way.
+enum class Phase { converging, last_but_one, last };
+
+/// One system on its way.
+struct Field {
+  const LightSystem& system;
+  double kappa = 0;
+  double weight = 1;  ///< w of the step to come
+  int gathers = kMostGathers;
+  Map irradiance = {};
+  Map before = {};    ///< E_{k−1}
+  Map weighted = {};  ///< sums so far, of what was seen, and their weights
+  Map weights = {};
+
+  double albedo(std::size_t i) const { return system.varying ? (*system.varying)[i] : system.albedo; }
+};
+
+/// Mean over receivers of 1 − A, weighted by its fourth power and area.
+double deep_surface_share(const Map& sky, const Surface& surface) {
+  double sum = 0;
+  double weights = 0;
+  for (std::size_t i = 0; i < sky.size(); ++i) {
+    const double share = 1 - double{sky.values[i]};
+    if (std::isnan(share)) continue;
+    const double weight = std::pow(share, 4) / double{surface.normal.values[i].z};
+    sum += weight * share;
+    weights += weight;
+  }
+  return weights > 0 ? sum / weights : 0;
+}
+
+double highest_albedo(const LightSystem& system) {
+  if (!system.varying) return system.albedo;
+  return *std::max_element(system.varying->begin(), system.varying->end());
+}
+
+/// Calls body(i) for all texels, on all threads.
+template <class Body>
+void for_texels(const Map& map, Body&& body) {
+  parallel_for(map.height, [&](std::int64_t row) {
+    const std::size_t begin = map.index(static_cast<int>(row), 0);
+    for (std::size_t i = begin; i < begin + static_cast<std::size_t>(map.width); ++i) body(i);
+  });
+}
+
+/// Under the sky the closed form G with n guessed from A; light of one's own before it bounces.
+Map start(const LightSystem& system, const Map& sky) {
+  Map irradiance(sky.width, sky.height);
+  for_texels(sky, [&](std::size_t i) {
+    const double albedo = system.varying ? (*system.varying)[i] : system.albedo;
+    const SkyViewFactor<double> share(double{sky.values[i]});
+    const bool missing = std::isnan(sky.values[i]);
+    irradiance.values[i] = missing         ? sky.values[i]
+                           : system.direct ? static_cast<float>((*system.direct)[i])
+                                           : static_cast<float>(bounced_total(share, guess_seen(share), albedo));
+  });
+  return irradiance;
+}
+
+Field begin(const LightSystem& system, const Map& sky, double deep_share) {
+  Field field{.system = system};
+  field.kappa = highest_albedo(system) * deep_share;
+  field.irradiance = start(system, sky);
+  field.before = field.irradiance;
+  field.weighted = Map(sky.width, sky.height);
+  field.weights = Map(sky.width, sky.height);
+  return field;
+}
+
+/// How many gathers leave no more than the error of what the first one changed, RMS.
+int plan_gathers(double kappa, double change, double error) {
+  const double left = std::sqrt(1 - std::min(kappa * kappa, 0.9999));
+  const double rate = kappa > 0 ? (1 - left) / kappa : 0;
+  const double first = 2 * change / left;  // of the start, about
+  if (!(first > error) || !(rate > 0)) return kFewestGathers;
+  const int gathers = 1 + static_cast<int>(std::ceil(std::log(error / first) / std::log(rate)));
+  return std::clamp(gathers, kFewestGathers, kMostGathers);
+}
+
+Phase phase_of(const Field& field, int k) {
+  return k + 1 >= field.gathers ? Phase::last : k + 2 >= field.gathers ? Phase::last_but_one : Phase::converging;
+}
+
+void next_weight(int k, Field& field) {
+  const double squared = field.kappa * field.kappa;
+  field.weight = k == 0 || phase_of(field, k) == Phase::last ? 1
+                 : k == 1                                    ? 1 / (1 - squared / 2)
+                                                             : 1 / (1 - squared * field.weight / 4);
+}
+
+/// One gather's step of several fields, and the RMS of what it would change, per field, with a weight of 1.
+class GatherStep {
+ public:
+  GatherStep(const MapGather& gather, const Map& sky, float kept) : gather_(gather), sky_(sky), kept_(kept) {}
+
+  std::vector<double> take(const GatherTurn& turn, const std::vector<Field*>& fields) {
+    std::vector<FieldPyramid> pyramids;
+    std::vector<const FieldPyramid*> read;
+    for (const Field* field : fields) pyramids.push_back(radiosity(*field));
+    for (const FieldPyramid& pyramid : pyramids) read.push_back(&pyramid);
+    const TileGrid grid(sky_.width, sky_.height);
+    const auto tiles = static_cast<std::size_t>(grid.count());
+    std::vector<double> squares(tiles * fields.size());
+    gather_.run(turn, read, [&](const ReceiverTile& tile, const GatherSums& sums) {
+      const auto index = static_cast<std::size_t>(tile.first_row / TileFrame::kSide * grid.across +
+                                                  tile.first_column / TileFrame::kSide);
+      for (std::size_t f = 0; f < fields.size(); ++f)
+        squares[f * tiles + index] = update(tile, sums.weight, sums.weighted[f], *fields[f]);
+    });
+    std::vector<double> changes;
+    for (std::size_t f = 0; f < fields.size(); ++f) {
+      double sum = 0;
+      for (std::size_t i = 0; i < tiles; ++i) sum += squares[f * tiles + i];
+      changes.push_back(std::sqrt(sum / static_cast<double>(sky_.size())));
+    }
+    return changes;
+  }
+
+ private:
+  FieldPyramid radiosity(const Field& field) const {
+    Map values(sky_.width, sky_.height);
+    for_texels(sky_, [&](std::size_t i) {
+      values.values[i] = static_cast<float>(field.albedo(i)) * field.irradiance.values[i];
+    });
+    FieldPyramid pyramid = gather_.make_pyramid();
+    pyramid.fill(values);
+    return pyramid;
+  }
+
+  double update(const ReceiverTile& tile, const GatherSums::Values& weight,
+                const GatherSums::Values& weighted, Field& field) const {
+    double squares = 0;
+    for (int row = 0; row < tile.rows; ++row) {
+      for (int column = 0; column < tile.columns; ++column) {
+        const auto at = static_cast<std::size_t>(row * ReceiverTile::kSide + column);
+        if (!tile.present[at]) continue;
+        const std::size_t i = sky_.index(tile.first_row + row, tile.first_column + column);
+        float& sum = field.weighted.values[i];
+        float& all = field.weights.values[i];
+        sum = weighted[at] + kept_ * sum;
+        all = weight[at] + kept_ * all;
+        float& now = field.irradiance.values[i];
+        float& before = field.before.values[i];
+        // Who sees nothing along all azimuths so far, but has A < 1, sees its like.
+        const double seen = all > 0 ? double{sum} / double{all} : field.albedo(i) * double{now};
+        const double share = double{sky_.values[i]};
+        const double next = (field.system.direct ? (*field.system.direct)[i] : share) + (1 - share) * seen;
+        squares += (next - double{now}) * (next - double{now});
+        const double stepped = double{before} + field.weight * (next - double{before});
+        before = now;
+        now = static_cast<float>(std::max(stepped, 0.0));
+      }
+    }
+    return squares;
+  }
+
+  const MapGather& gather_;
+  const Map& sky_;
+  float kept_;
+};
+
+TexelVector take_irradiance(const Field& field) {
+  TexelVector irradiance(field.irradiance.size());
+  for_texels(field.irradiance, [&](std::size_t i) {
+    const float value = field.irradiance.values[i];
+    irradiance[i] = std::isnan(value) ? 0 : double{value};
+  });
+  return irradiance;
+}
+
+}  // namespace
+
+ProgressiveSolution gather_progressively(const MapGather& gather, const Map& sky,
+                                         const std::vector<LightSystem>& systems, const ProgressiveGoal& goal,
+                                         const Watch& watch) {
+  constexpr double kGoldenRatio = 0.6180339887498949;
+  Progress progress("bounces", 0, watch);
+  const double deep_share = deep_surface_share(sky, gather.surface());
+  std::vector<Field> fields;
+  for (const LightSystem& system : systems) fields.push_back(begin(system, sky, deep_share));
+  ProgressiveSolution solution;
+  for (int k = 0; k < kMostGathers; ++k) {
+    std::map<Phase, std::vector<Field*>> by_phase;
+    for (Field& field : fields) {
+      if (k < field.gathers) by_phase[phase_of(field, k)].push_back(&field);
+    }
+    if (by_phase.empty()) break;
+    for (const auto& [phase, group] : by_phase) {
+      const int azimuths = phase == Phase::converging ? goal.first_azimuths : goal.last_azimuths;
+      GatherStep step(gather, sky, phase == Phase::last ? kKeptShare : 0);
+      for (std::size_t first = 0; first < group.size(); first += kMostFields) {
+        progress.throw_if_stopped();
+        const auto begin_of_some = group.begin() + static_cast<std::ptrdiff_t>(first);
+        const std::size_t count = std::min(kMostFields, group.size() - first);
+        const std::vector<Field*> some(begin_of_some, begin_of_some + static_cast<std::ptrdiff_t>(count));
+        for (Field* field : some) next_weight(k, *field);
+        const std::vector<double> changes = step.take({azimuths, std::fmod((k + 1) * kGoldenRatio, 1.0)}, some);
+        for (std::size_t f = 0; k == 0 && f < count; ++f)
+          some[f]->gathers = plan_gathers(some[f]->kappa, changes[f], kEndShare * goal.error);
+      }
+    }
+    solution.gathers = k + 1;
+    progress.add(1);
+  }
+  for (const Field& field : fields) solution.irradiance.push_back(take_irradiance(field));
+  return solution;
+}
+
+}  // namespace heightlight

@@ -1,0 +1,147 @@
+#include "visibility/field_pyramid.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "surface/blocks.h"
+#include "visibility/height_mips.h"
+
+namespace heightlight {
+namespace {
+
+int half(int count) { return (count + 1) / 2; }
+
+/// Without values.
+std::vector<FieldPyramid::Level> lay_out(int width, int height, int levels, int reach) {
+  std::vector<FieldPyramid::Level> layout;
+  for (int l = 0; l <= levels; ++l) {
+    layout.push_back({.width = width, .height = height, .margin = reach, .values = {}});
+    width = half(width);
+    height = half(height);
+  }
+  return layout;
+}
+
+std::size_t value_count(const FieldPyramid::Level& level) {
+  return static_cast<std::size_t>(level.stride()) * static_cast<std::size_t>(level.height + 2 * level.margin);
+}
+
+}  // namespace
+
+FieldPyramid::FieldPyramid(const Surface& surface, int levels, int reach)
+    : surface_(surface), levels_(lay_out(surface.width(), surface.height(), levels, reach)) {
+  for (Level& level : levels_) level.values.assign(value_count(level), 0);
+}
+
+void FieldPyramid::fill(const Map& values) {
+  Level& finest = levels_[0];
+  assert(values.width == finest.width && values.height == finest.height);
+  parallel_for(finest.height, [&](std::int64_t row) {
+    std::copy_n(values.values.data() + row * finest.width, finest.width,
+                finest.origin() + row * finest.stride());
+  });
+  for (std::size_t l = 1; l < levels_.size(); ++l) coarsen(l);
+  for (std::size_t l = levels_.size(); l-- > 0;) {
+    fill_holes(l);
+    fill_margins(l, nullptr);
+  }
+}
+
+void FieldPyramid::fill_heights(int l, const Map& heights) {
+  Level& level = levels_[static_cast<std::size_t>(l)];
+  assert(heights.width == level.width && heights.height == level.height);
+  parallel_for(level.height, [&](std::int64_t row) {
+    const float* from = heights.values.data() + row * level.width;
+    std::transform(from, from + level.width, level.origin() + row * level.stride(),
+                   [](float height) { return std::isnan(height) ? kNoHeight : height; });
+  });
+  fill_margins(static_cast<std::size_t>(l), &kNoHeight);
+}
+
+void FieldPyramid::coarsen(std::size_t l) {
+  const Level& fine = levels_[l - 1];
+  Level& coarse = levels_[l];
+  parallel_for(coarse.height, [&](std::int64_t row) {
+    float* out = coarse.origin() + row * coarse.stride();
+    const float* upper = fine.origin() + 2 * row * fine.stride();
+    const float* lower = 2 * row + 1 < fine.height ? upper + fine.stride() : upper;
+    for (int column = 0; column < coarse.width; ++column) {
+      const int left = 2 * column;
+      const int right = std::min(left + 1, fine.width - 1);
+      const float all = 0.25F * (upper[left] + upper[right] + lower[left] + lower[right]);
+      if (!std::isnan(all)) {
+        out[column] = all;
+        continue;
+      }
+      float sum = 0;
+      int present = 0;
+      for (const float part : {upper[left], upper[right], lower[left], lower[right]}) {
+        if (std::isnan(part)) continue;
+        sum += part;
+        ++present;
+      }
+      out[column] = sum / static_cast<float>(present);
+    }
+  });
+}
+
+void FieldPyramid::fill_holes(std::size_t l) {
+  Level& fine = levels_[l];
+  const Level* coarse = l + 1 < levels_.size() ? &levels_[l + 1] : nullptr;
+  parallel_for(fine.height, [&](std::int64_t row) {
+    float* line = fine.origin() + row * fine.stride();
+    const float* parents = coarse ? coarse->origin() + row / 2 * coarse->stride() : nullptr;
+    for (int column = 0; column < fine.width; ++column) {
+      if (std::isnan(line[column])) line[column] = parents ? parents[column / 2] : 0;
+    }
+  });
+}
+
+/// `outside`: what stands beyond the edges of a map that does not tile; null: its outermost values.
+void FieldPyramid::fill_margins(std::size_t l, const float* outside) {
+  Level& level = levels_[l];
+  const int margin = level.margin;
+  const auto along = [&](int blocks, int samples) {
+    std::vector<int> sources =
+        block_sources(-margin, blocks + 2 * margin, static_cast<int>(l), samples, surface_.tiles());
+    if (outside) return sources;
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+      if (sources[i] < 0) sources[i] = static_cast<int>(i) < margin ? 0 : blocks - 1;
+    }
+    return sources;
+  };
+  const std::vector<int> columns = along(level.width, surface_.width());
+  const std::vector<int> rows = along(level.height, surface_.height());
+  parallel_for(level.height, [&](std::int64_t row) {
+    float* line = level.origin() + row * level.stride();
+    const auto source = [&](int column) {
+      const int from = columns[static_cast<std::size_t>(margin + column)];
+      return from < 0 ? *outside : line[from];
+    };
+    for (int i = 0; i < margin; ++i) {
+      line[i - margin] = source(i - margin);
+      line[level.width + i] = source(level.width + i);
+    }
+  });
+  float* top = level.values.data();
+  for (int i = 0; i < level.height + 2 * margin; ++i) {
+    if (i >= margin && i < margin + level.height) continue;
+    const int from = rows[static_cast<std::size_t>(i)];
+    if (from < 0) {
+      std::fill_n(top + i * level.stride(), level.stride(), *outside);
+    } else {
+      std::copy_n(top + (margin + from) * level.stride(), level.stride(), top + i * level.stride());
+    }
+  }
+}
+
+std::uint64_t field_pyramid_bytes(int width, int height, int levels, int reach) {
+  std::uint64_t bytes = 0;
+  for (const FieldPyramid::Level& level : lay_out(width, height, levels, reach))
+    bytes += value_count(level) * sizeof(float);
+  return bytes;
+}
+
+}  // namespace heightlight

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "heightlight/image.h"
+#include "heightlight/surface.h"
+
+namespace heightlight {
+
+/// A field on the surface, over square blocks of 2^l × 2^l samples, as walks read it. Every level has a margin
+/// on all sides that holds what lies beyond the map's edges, so that reading needs no care.
+class FieldPyramid {
+ public:
+  struct Level {
+    int width = 0;  ///< blocks, without the margin
+    int height = 0;
+    int margin = 0;
+    std::vector<float> values;
+
+    std::ptrdiff_t stride() const { return width + 2 * std::ptrdiff_t{margin}; }
+    /// Of the block in row 0 and column 0.
+    const float* origin() const { return values.data() + margin * stride() + margin; }
+    float* origin() { return values.data() + margin * stride() + margin; }
+  };
+
+  /// `levels` above the samples themselves; `reach`: blocks beyond the map's edges that reading may touch.
+  FieldPyramid(const Surface& surface, int levels, int reach);
+
+  /// From values per sample, those of missing ones NaN: each block is the mean of its parts, and missing
+  /// samples take the value of the block around them. Beyond the edges of a map that does not tile nothing is
+  /// ever seen, and the outermost value stands.
+  void fill(const Map& values);
+
+  /// Level l alone, from a value per block, kNoHeight beyond the edges of a map that does not tile.
+  void fill_heights(int l, const Map& heights);
+
+  const Level& level(int l) const { return levels_[static_cast<std::size_t>(l)]; }
+
+ private:
+  void coarsen(std::size_t l);
+  void fill_holes(std::size_t l);
+  void fill_margins(std::size_t l, const float* outside);
+
+  const Surface& surface_;
+  std::vector<Level> levels_;
+};
+
+/// Bytes that a pyramid of such a map takes.
+std::uint64_t field_pyramid_bytes(int width, int height, int levels, int reach);
+
+}  // namespace heightlight
