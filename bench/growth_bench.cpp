@@ -3,8 +3,8 @@
 //
 // The maps keep their shape: open, relief a tenth of the width. Finer maps have finer detail (fBm down to two
 // texels, sharper bricks). Each is worked on in a process of its own, so that its peak of memory is its own;
-// making the map counts for neither time nor memory in use, and finding the errors, by exact walks from 256
-// receivers, for neither. Up to 4096 all of it takes some four minutes on two cores, and 2 GB.
+// making the map counts for neither time nor memory in use, and finding the errors, by exact walks from some
+// hundred receivers, for neither. Up to 4096 all of it takes some four minutes on two cores, and 2 GB.
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -26,6 +26,7 @@
 #include "heightlight/error.h"
 #include "heightlight/transport.h"
 #include "transport/horizon_plan.h"
+#include "transport/progressive_gather.h"
 #include "visibility/horizon_sky.h"
 
 namespace heightlight {
@@ -34,29 +35,22 @@ namespace {
 constexpr double kAlbedo = 0.8;
 constexpr WalkOptions kFixedWalk{.azimuths = 32, .fineness = 16, .peak_share = 0.3F};
 
-/// Of everything beside the links, as they are made and the bounces are summed; measured, and rounded up.
-constexpr std::uint64_t kOtherBytesPerTexel = 76;
-
 /// What became of one map. Plain, so that it can go through a pipe.
 struct Growth {
   Cost fixed_walk;
   Cost pilot;   ///< with the choice of how the sky is walked
   Cost sky;     ///< with its mips
-  Cost links;   ///< with their choice
-  Cost totals;  ///< bounces and tail
+  Cost plan;    ///< of the gathers, and the heights that they look at
+  Cost totals;  ///< all gathers
   int sky_azimuths = 0;
   int sky_fineness = 0;
-  int lattice_stride = 0;
-  double own_share = 0;
-  int link_azimuths = 0;
-  int link_fineness = 0;
-  int bounces = 0;
+  int gather_azimuths = 0;  ///< of each of the last two
+  int gather_fineness = 0;
+  int gathers = 0;
   double peak_bytes = 0;  ///< resident, of the process, until the totals are there
-  double link_bytes = 0;
-  double kept_share = 0;  ///< of the tiles of links
   HorizonCheck check;
 
-  Cost all() const { return pilot + sky + links + totals; }
+  Cost all() const { return pilot + sky + plan + totals; }
 };
 
 /// Resident memory of this process at its most, bytes.
@@ -66,63 +60,41 @@ double peak_memory() {
   return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
-/// The operator that simulate uses, from the same parts, so that each can be timed.
-class WalkedTransport : public Transport {
- public:
-  WalkedTransport(const Surface& surface, double error, std::uint64_t link_memory, Growth& growth) {
-    HorizonGoal goal;
-    goal.error = error;
-    const Watch unwatched;
-    const Stopwatch pilot_watch;
-    HorizonPilot pilot(surface, goal.seed, unwatched);
-    HorizonPlan plan{.sky = plan_sky(pilot, goal)};
-    growth.pilot = pilot_watch.elapsed();
-    const Stopwatch sky_watch;
-    mips_ = build_height_mips(surface);
-    HorizonSky sky = walk_horizon_sky(surface, mips_, plan.sky);
-    growth.sky = sky_watch.elapsed();
-    ambient_occlusion = std::move(sky.ambient_occlusion);
-    sky_view_factor = std::move(sky.sky_view_factor);
-    direct.assign(sky_view_factor.values.begin(), sky_view_factor.values.end());
-    const Stopwatch link_watch;
-    light_ = plan_links(pilot, mips_, direct, goal, {.memory = link_memory}, plan);
-    growth.links = link_watch.elapsed();
-    growth.sky_azimuths = plan.sky.walk.azimuths;
-    growth.sky_fineness = plan.sky.walk.fineness;
-    growth.lattice_stride = plan.links.lattice_stride;
-    growth.own_share = plan.links.own_share;
-    growth.link_azimuths = plan.links.walk.azimuths;
-    growth.link_fineness = plan.links.walk.fineness;
-    growth.link_bytes = static_cast<double>(bytes());
-    growth.kept_share = light_->kept_share();
-  }
-
-  TexelVector gather(const TexelVector& x) const override {
-    TexelVector result(x.size());
-    light_->gather(x, direct, result);
-    return result;
-  }
-  double solver_tolerance() const override { return 1e-6; }
-  std::uint64_t link_count() const override { return light_->link_count(); }
-  std::uint64_t bytes() const override { return light_->bytes(); }
-
- private:
-  HeightMips mips_;
-  std::unique_ptr<SeenLight> light_;
-};
-
 struct Options {
   std::vector<std::string> maps{"brick", "fbm"};
   int smallest = 256;
   int largest = 4096;
   double error = HorizonGoal{}.error;
-  std::uint64_t memory = std::uint64_t{6} << 30;
   std::string csv;
 };
 
-std::uint64_t link_memory(const Options& options, const Surface& surface) {
-  const std::uint64_t others = surface.map.height.size() * kOtherBytesPerTexel;
-  return options.memory > others ? options.memory - others : 0;
+/// What totals are gathered from. What planning holds beside it is gone by then.
+struct Planned {
+  Map sky;
+  PlannedGather gather;
+};
+
+/// Plans and finds the sky, and plans the gathers, as `simulate` does, from the same parts, so that each can
+/// be timed.
+Planned plan(const Surface& surface, const Options& options, Growth& growth) {
+  HorizonGoal goal;
+  goal.error = options.error;
+  const Stopwatch pilot_watch;
+  HorizonPilot pilot(surface, goal.seed, {});
+  const SkyPlan sky_plan = plan_sky(pilot, goal);
+  growth.pilot = pilot_watch.elapsed();
+  const Stopwatch sky_watch;
+  const HeightMips mips = build_height_mips(surface);
+  Planned planned{.sky = walk_horizon_sky(surface, mips, sky_plan).sky_view_factor, .gather = {}};
+  growth.sky = sky_watch.elapsed();
+  const Stopwatch plan_watch;
+  planned.gather = plan_gather(pilot, mips, planned.sky, goal, sky_plan);
+  growth.plan = plan_watch.elapsed();
+  growth.sky_azimuths = sky_plan.walk.azimuths;
+  growth.sky_fineness = sky_plan.walk.fineness;
+  growth.gather_azimuths = planned.gather.plan.walk.azimuths;
+  growth.gather_fineness = planned.gather.plan.walk.fineness;
+  return planned;
 }
 
 Growth measure(const Options& options, const std::string& map, int size) {
@@ -132,15 +104,17 @@ Growth measure(const Options& options, const std::string& map, int size) {
     const HeightMips mips = build_height_mips(surface);
     growth.fixed_walk = least_cost([&] { walk_horizon_sky(surface, mips, {.walk = kFixedWalk}); });
   }
-  const WalkedTransport transport(surface, options.error, link_memory(options, surface), growth);
-  constexpr double kBounceShare = 0.2;  // of the error, that ending the bounces may take
+  const Planned planned = plan(surface, options, growth);
+  const ProgressiveGoal goal{.error = options.error, .last_azimuths = growth.gather_azimuths};
   const Stopwatch watch;
-  const TotalIrradiance total = solve_totals(transport, {kAlbedo}, kBounceShare * options.error);
+  const ProgressiveSolution solution =
+      gather_progressively(*planned.gather.gather, planned.sky, {{.albedo = kAlbedo}}, goal, {});
   growth.totals = watch.elapsed();
-  growth.bounces = total.bounces;
+  growth.gathers = solution.gathers;
   growth.peak_bytes = peak_memory();
+  const TexelVector sky(planned.sky.values.begin(), planned.sky.values.end());
   growth.check =
-      check_by_exact_walks(surface, transport.direct, {{.total = total.totals[0], .albedo = kAlbedo}}, 1)[0];
+      check_by_exact_walks(surface, sky, {{.total = solution.irradiance[0], .albedo = kAlbedo}}, 1)[0];
   return growth;
 }
 
@@ -174,27 +148,24 @@ void print_head(const Options& options) {
       "fixed walk: core-ns per texel and azimuth, %d azimuths, fineness %d\n"
       "the rest: sky and totals at albedo %g, planned for an error of %g; core-seconds\n"
       "others: processors that other programs kept busy meanwhile; wall times suffer from them\n"
-      "B/texel: peak of memory, that of the links in it; kept: share of the links that had room\n"
-      "links: every n-th receiver, azimuths, fineness; RMSE: by exact walks\n"
-      "%-6s %6s %6s %7s %7s %7s %7s %8s %8s %6s %8s %8s %8s %5s %-8s %-10s %7s %8s %8s\n",
+      "B/texel: peak of memory; sky, walks: azimuths and fineness of the sky and of the last two gathers\n"
+      "RMSE: by exact walks\n"
+      "%-6s %6s %6s %7s %7s %7s %7s %8s %8s %6s %8s %8s %-8s %-8s %7s %8s %8s\n",
       kFixedWalk.azimuths, kFixedWalk.fineness, kAlbedo, options.error, "map", "size", "fixed", "pilot",
-      "sky", "links", "totals", "core-s", "wall-s", "others", "peak MB", "B/texel", "of links", "kept", "sky",
-      "links", "bounces", "RMSE A", "total");
+      "sky", "plan", "totals", "core-s", "wall-s", "others", "peak MB", "B/texel", "sky", "walks", "gathers",
+      "RMSE A", "total");
 }
 
 void print_row(const std::string& map, int size, const Growth& g) {
   const double texels = static_cast<double>(size) * size;
   const std::string sky = std::to_string(g.sky_azimuths) + "/" + std::to_string(g.sky_fineness);
-  const std::string links = std::to_string(g.lattice_stride) + "," + std::to_string(g.link_azimuths) + "/" +
-                            std::to_string(g.link_fineness);
+  const std::string walks = std::to_string(g.gather_azimuths) + "/" + std::to_string(g.gather_fineness);
   const Cost all = g.all();
   std::printf(
-      "%-6s %6d %6.2f %7.3f %7.3f %7.3f %7.3f %8.3f %8.3f %6.2f %8.0f %8.1f %8.1f %5.2f %-8s %-10s %7d %8.5f "
-      "%8.5f\n",
+      "%-6s %6d %6.2f %7.3f %7.3f %7.3f %7.3f %8.3f %8.3f %6.2f %8.0f %8.1f %-8s %-8s %7d %8.5f %8.5f\n",
       map.c_str(), size, 1e9 * g.fixed_walk.core / (texels * kFixedWalk.azimuths), g.pilot.core, g.sky.core,
-      g.links.core, g.totals.core, all.core, all.wall, all.others / all.wall, 1e-6 * g.peak_bytes,
-      g.peak_bytes / texels, g.link_bytes / texels, g.kept_share, sky.c_str(), links.c_str(), g.bounces,
-      g.check.sky_rmse, g.check.total_rmse);
+      g.plan.core, g.totals.core, all.core, all.wall, all.others / all.wall, 1e-6 * g.peak_bytes,
+      g.peak_bytes / texels, sky.c_str(), walks.c_str(), g.gathers, g.check.sky_rmse, g.check.total_rmse);
   std::fflush(stdout);
 }
 
@@ -202,20 +173,19 @@ void write_row(std::ostream& file, const std::string& map, int size, const Growt
   const double texels = static_cast<double>(size) * size;
   const Cost all = g.all();
   file << map << ',' << size << ',' << 1e9 * g.fixed_walk.core / (texels * kFixedWalk.azimuths) << ','
-       << g.pilot.core << ',' << g.sky.core << ',' << g.links.core << ',' << g.totals.core << ',' << all.core
+       << g.pilot.core << ',' << g.sky.core << ',' << g.plan.core << ',' << g.totals.core << ',' << all.core
        << ',' << all.wall << ',' << all.others << ',' << g.peak_bytes << ',' << g.peak_bytes / texels << ','
-       << g.link_bytes / texels << ',' << g.kept_share << ',' << g.sky_azimuths << ',' << g.sky_fineness
-       << ',' << g.lattice_stride << ',' << g.link_azimuths << ',' << g.link_fineness << ',' << g.bounces
-       << ',' << g.check.sky_rmse << ',' << g.check.total_rmse << ',' << g.own_share << '\n';
+       << g.sky_azimuths << ',' << g.sky_fineness << ',' << g.gather_azimuths << ',' << g.gather_fineness
+       << ',' << g.gathers << ',' << g.check.sky_rmse << ',' << g.check.total_rmse << '\n';
 }
 
 void run(const Options& options) {
   std::ofstream file;
   if (!options.csv.empty()) {
     file.open(options.csv);
-    file << "map,size,fixed_walk_core_ns,pilot_core_s,sky_core_s,links_core_s,totals_core_s,core_s,wall_s,"
-            "others_core_s,peak_bytes,bytes_per_texel,link_bytes_per_texel,kept_share,sky_azimuths,"
-            "sky_fineness,link_stride,link_azimuths,link_fineness,bounces,rmse_sky,rmse_total,own_share\n";
+    file << "map,size,fixed_walk_core_ns,pilot_core_s,sky_core_s,plan_core_s,totals_core_s,core_s,wall_s,"
+            "others_core_s,peak_bytes,bytes_per_texel,sky_azimuths,sky_fineness,gather_azimuths,"
+            "gather_fineness,gathers,rmse_sky,rmse_total\n";
   }
   print_head(options);
   for (const std::string& map : options.maps) {
@@ -244,9 +214,6 @@ int main(int argument_count, char** arguments) {
     app.add_option("--largest", options.largest, "this (4096)")->check(CLI::Range(64, 16384));
     app.add_option("--error", options.error, "RMSE wanted, of A and of the total")
         ->check(CLI::PositiveNumber);
-    app.add_option("--memory", options.memory,
-                   "bytes; links that find no room in it are walked again at each bounce (6G)")
-        ->transform(CLI::AsSizeValue(false));
     app.add_option("--csv", options.csv, "file for the results");
     CLI11_PARSE(app, argument_count, arguments);
     heightlight::run(options);

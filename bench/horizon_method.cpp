@@ -69,9 +69,8 @@ Method horizon_total_method(const Surface& surface, double albedo) {
     HorizonGoal goal;
     goal.error = 1.0 / inverse;
     goal.total_only = true;
-    const PlannedTransport planned = plan_horizon_transport(surface, goal, {});
-    constexpr double kBounceShare = 0.2;  // of the error, that ending the bounces may take
-    return to_map(solve_totals(*planned.transport, {albedo}, kBounceShare * goal.error).totals[0], surface);
+    const PlannedTransport planned = plan_horizon_transport(surface, goal);
+    return to_map(planned.transport->solve({{.albedo = albedo}}, {}).irradiance[0], surface);
   };
   return method;
 }

@@ -49,11 +49,9 @@ unset logscale y
 set yrange [0:1800]
 set key top right
 plot for [m = 1:2] table using (only(m, 'size')):(column('bytes_per_texel')) with linespoints linetype m \
-  title names[m], \
-  for [m = 1:2] table using (only(m, 'size')):(column('link_bytes_per_texel')) with linespoints linetype m \
-  dashtype 2 title names[m].', links alone'
+  title names[m]
 
-set title 'Error, checked by exact walks from 256 receivers'
+set title 'Error, checked by exact walks from some hundred receivers'
 set ylabel 'RMSE'
 set yrange [0:0.006]
 set key top left

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "heightlight/transport.h"
@@ -26,8 +27,8 @@ struct SkyCheck {
   int azimuths = 0;
   double ambient_occlusion = 0;
   double sky_view_factor = 0;
-  std::optional<double> bent_normal_rad;  ///< angle
-  std::optional<double> harmonics;        ///< of a coefficient
+  std::optional<double> bent_normal_rad = {};  ///< angle
+  std::optional<double> harmonics = {};        ///< of a coefficient
 };
 
 /// What must hold of any surface, as measured on this one.
@@ -65,17 +66,19 @@ struct Evidence {
   int azimuths = 0;                 ///< of the sky; 0 of rays
   int rays = 0;                     ///< 0 of walks and slices
   std::uint64_t seed = 1;           ///< of every random choice
-  std::optional<HorizonPlan> plan;  ///< of horizon walks; its links mean nothing where there are none
+  std::optional<HorizonPlan> plan;  ///< of horizon walks; its gathers mean nothing where nothing bounces
   bool has_links = false;           ///< an operator was built, stored or to be walked again
   std::uint64_t links = 0;          ///< stored
   std::uint64_t link_bytes = 0;
   int bounces = 0;  ///< gathered one after the other
+  int gathers = 0;  ///< of horizon walks: for the totals, one after the other
 
   // What it errs by.
   std::optional<double> sky_rmse;     ///< of A: the best figure there is; absent where no receiver is
   std::optional<SkyCheck> sky_check;  ///< of the sky's maps
   std::vector<HorizonCheck>
-      total_checks;  ///< per albedo, of A and of the total in the channel that reflects most
+      total_checks;      ///< per albedo, of A and of the total in the channel that errs most
+  bool refined = false;  ///< the first check found totals that miss the error: these were found once more
 
   // How well energy is kept, where single bounces were asked for.
   std::optional<EnergyCheck> energy;
@@ -87,5 +90,9 @@ struct Evidence {
       0;  ///< of memory, links included, as estimated beforehand for the worst moment
   int threads = 1;
 };
+
+/// Says in words which errors the checks found to be a tenth or more above the one wanted; empty where none
+/// is, or where none was wanted.
+std::string missed_error(const Evidence& evidence);
 
 }  // namespace heightlight

@@ -27,6 +27,14 @@ struct LightSystem {
   const TexelVector* varying = nullptr;  ///< ρ per texel, where it is not
 };
 
+/// Solutions of systems.
+struct Totals {
+  std::vector<TexelVector> irradiance;  ///< E/π, per system
+  int gathers = 0;                      ///< of walks: one after the other, the most of any system
+  int iterations = 0;                   ///< of solvers on stored links, the most of any system
+  double residual = 0;                  ///< of solvers, the largest
+};
+
 /// The operator F that carries irradiance from bounce to bounce, and the sky's share of every receiver:
 /// sky_view_factor_i + Σ_j F_ij = 1. Whatever finds visibility ends in one of these; bounces don't know
 /// which.
@@ -41,9 +49,13 @@ struct Transport {
   virtual ~Transport() = default;
 
   /// F x: what each receiver gets when the surface's radiosity / π is x, finite everywhere. 0 where missing.
+  /// The same linear F at every call.
   virtual TexelVector gather(const TexelVector& x) const = 0;
-  /// Relative residual to which systems with F can be solved.
-  virtual double solver_tolerance() const = 0;
+  /// E_b = F E_{b−1}, b ≥ 1. Walks turn from bounce to bounce, and take fewer azimuths the less is left.
+  virtual TexelVector next_bounce(const TexelVector& before, int) const { return gather(before); }
+  /// E/π of all bounces of each system, which is the same, to the last bit, whatever others are beside it. 0
+  /// where missing.
+  virtual Totals solve(const std::vector<LightSystem>& systems, const Watch& watch) const = 0;
   /// Form factors that are stored, and the bytes that they take.
   virtual std::uint64_t link_count() const = 0;
   virtual std::uint64_t bytes() const = 0;
@@ -84,7 +96,8 @@ struct FormFactors : Transport {
   FormFactors(int map_width, int map_height);  ///< without links, nothing known of the sky
 
   TexelVector gather(const TexelVector& x) const override;
-  double solver_tolerance() const override { return 1e-8; }
+  /// By solve_equilibrium.
+  Totals solve(const std::vector<LightSystem>& systems, const Watch& watch) const override;
   std::uint64_t link_count() const override;
   std::uint64_t bytes() const override;
 };
@@ -103,29 +116,25 @@ FormFactors build_form_factors(const Surface& surface, const RayOptions& rays, c
 /// Throws as build_form_factors does.
 FormFactors build_exact_form_factors(const Surface& surface, int azimuths, const LinkLimits& limits);
 
-/// How horizon walks find links. They bear fewer azimuths than the sky does, since they tell only how what is
-/// seen of the surface is divided up, not how much of it there is. Where that changes slowly, links of a
-/// lattice of receivers, every stride-th a side, are enough.
-struct LinkPlan {
-  WalkOptions walk = {};   ///< of receivers that have links of their own; where none has, the lattice's
-  int lattice_stride = 1;  ///< of the lattice that tells others what they see; 1: there is none
-  WalkOptions lattice_walk = {};  ///< its receivers' links
-  double own_from = 0;            ///< RMS of 1 − A in 16 receivers of a row from which they have their own
-  double own_share = 1;           ///< of blocks of 16 receivers, those that do; 0: none does
-  double error = 0;               ///< RMSE of the total at ρ = 0.8 expected from the links alone
+/// How horizon walks gather. Gathers bear fewer azimuths than the sky does, since they tell only how what is
+/// seen of the surface is divided up, not how much of it there is.
+struct GatherPlan {
+  WalkOptions walk = {.azimuths = 8};  ///< azimuths: of each of the last two gathers of a total, of the first
+                                       ///< bounce, and of Transport::gather
+  double error = 0;  ///< RMSE of the total at ρ = 0.8 expected from gathers alone; 0 where there was no pilot
 };
 
 /// Both walks of one map.
 struct HorizonPlan {
   SkyPlan sky = {};
-  LinkPlan links = {};
+  GatherPlan gather = {};
 };
 
-/// The operator by horizon walks as planned. `surface` must outlive it. Tiles whose links the memory does not
-/// hold walk again at each gather. Its gathers are not to be called from two threads at once. Throws
-/// UsageError for a number of azimuths outside its range.
+/// The operator by horizon walks as planned: nothing is stored, each gather walks. `surface` must outlive it.
+/// `error` is what solve() may leave by ending, RMSE. Throws UsageError for a number of azimuths outside its
+/// range.
 std::unique_ptr<Transport> build_horizon_transport(const Surface& surface, const HorizonPlan& plan,
-                                                   const LinkLimits& limits);
+                                                   double error = 0.002, const Watch& watch = {});
 
 struct PlannedTransport {
   HorizonPlan plan;
@@ -144,16 +153,21 @@ struct HorizonGoal {
 
 /// Chooses a plan by trying ways of walking on a sample of receivers against exact walks; then builds.
 PlannedTransport plan_horizon_transport(const Surface& surface, const HorizonGoal& goal,
-                                        const LinkLimits& limits, const SkyWanted& wanted = {});
+                                        const SkyWanted& wanted = {}, const Watch& watch = {});
 
-/// What a finished solution errs by, found on a few hundred receivers by exact walks (which share no code
-/// with the fast ones): A against their sky, the total against one exact gather of the same light. What the
-/// gather finds wrong on average is taken to grow by 1/(1 − ρ (1 − A)) over the bounces.
+/// What a finished solution errs by, found on some hundred receivers by exact walks (which share no code with
+/// the fast ones). A is compared with their sky. Of the total an exact gather of the same light tells only
+/// what is wrong at its last step, r = direct + F ρ T − T. The error itself, e = r + F ρ e, also has what is
+/// wrong with the light that is gathered. For that, e is taken to depend, but for noise that a gather
+/// averages away, on A alone: its means over receivers of like A are solved for, with the exact walks' form
+/// factors between them.
 struct HorizonCheck {
   int receivers = 0;
   int azimuths = 0;
-  double sky_rmse = 0;    ///< of A
-  double total_rmse = 0;  ///< of E/π
+  double ambient_rmse = 0;          ///< of α; 0 where it was not given
+  double sky_rmse = 0;              ///< of A
+  double total_rmse = 0;            ///< of E/π
+  double total_standard_error = 0;  ///< of total_rmse: it lies within twice that of the truth, mostly
 };
 
 /// What is checked: a total, and the surface and the light that it is of.
@@ -164,14 +178,16 @@ struct CheckedTotal {
   const TexelVector* direct = nullptr;   ///< E₀/π of light of one's own, where it is not the sky's
 };
 
-/// Checks totals at the same receivers, one figure each. `sky` is A per texel, as found; `seed` picks the
-/// receivers.
+/// Checks totals at the same receivers, one figure each: 256 receivers, and up to three times as many while
+/// the standard error of any figure passes a tenth of it. `sky` is A per texel, as found; `seed` picks the
+/// receivers; `ambient_occlusion` may be null.
 std::vector<HorizonCheck> check_by_exact_walks(const Surface& surface, const TexelVector& sky,
                                                const std::vector<CheckedTotal>& totals, std::uint64_t seed,
-                                               const Watch& watch = {});
+                                               const Watch& watch = {},
+                                               const Map* ambient_occlusion = nullptr);
 
-/// The solution x of x = source + F (ρ x), to a residual of Transport::solver_tolerance of the source's norm,
-/// by BiCGSTAB; `guess` is where it starts. `albedo` is ρ per texel, in [0, 1].
+/// The solution x of x = source + F (ρ x), to a residual of 1e-8 of the source's norm, by BiCGSTAB; `guess`
+/// is where it starts. `albedo` is ρ per texel, in [0, 1].
 struct Equilibrium {
   TexelVector irradiance;
   int iterations = 0;
@@ -182,18 +198,16 @@ Equilibrium solve_equilibrium(const Transport& transport, const TexelVector& sou
 
 /// Bounces at ρ = 1, from which those at any constant albedo follow: E_b(ρ) = ρ^b E_b. All values are E/π.
 struct BounceSeries {
-  int bounces = 0;                    ///< K: the last one
-  TexelVector sum;                    ///< E₀ + … + E_K
-  std::vector<TexelVector> weighted;  ///< Σ_{b ≤ K} ρ^b E_b, per albedo asked for
-  TexelVector last;                   ///< E_K
-  TexelVector next;                   ///< E_{K+1} = F E_K
+  int bounces = 0;             ///< K: the last one
+  TexelVector sum;             ///< E₀ + … + E_K
+  TexelVector last;            ///< E_K
+  TexelVector next;            ///< E_{K+1} = F E_K
   double spectral_radius = 0;  ///< of F, by the Rayleigh quotient of E_K: a lower bound that E_K makes tight
 };
 
 /// Computes E_0 … E_K and hands each to `visit(b, E_b)` as it is made. Texels weigh 1/n_z, their area, in the
 /// Rayleigh quotient, under which F is symmetric.
 BounceSeries bounce(const Transport& transport, const Surface& surface, int bounces,
-                    const std::vector<double>& albedos,
                     const std::function<void(int, const TexelVector&)>& visit, const Watch& watch = {});
 
 /// What all bounces after the K-th bring at constant albedo ρ: ρ^{K+1} t, with t = E_{K+1} + ρ F t.
@@ -211,19 +225,6 @@ TexelVector conserve_tail(const Transport& transport, const TexelVector& sum, co
 
 /// The same of one receiver, from its own E₀ + … + E_K and E_K.
 double conserve_tail(double sum, double last, int bounces, double albedo);
-
-/// Total irradiance of all bounces at constant albedos, without keeping the bounces apart.
-struct TotalIrradiance {
-  std::vector<TexelVector> totals;  ///< E/π, per albedo
-  int bounces = 0;                  ///< gathered, before the tail was taken from conservation
-  double change = 0;  ///< RMS over the receivers of what the last of them changed, the most of any albedo
-};
-
-/// Bounces until one more changes no total by more than `tolerance` RMS, and 64 at most. Each albedo's total
-/// ends with the bounce that is enough for it, so that it is the same, to the last bit, whatever others are
-/// asked for beside it.
-TotalIrradiance solve_totals(const Transport& transport, const std::vector<double>& albedos, double tolerance,
-                             const Watch& watch = {});
 
 /// Values as a map, NaN where the surface has no receiver.
 Map to_map(const TexelVector& values, const Surface& surface);

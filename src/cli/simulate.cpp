@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include <memory>
+#include <string>
 
 #include "base/byte_size.h"
 #include "cli/commands.h"
@@ -11,6 +12,9 @@ namespace heightlight {
 namespace {
 
 void report(const SimulateOptions& options, const Simulation& simulation) {
+  const std::string missed = missed_error(simulation.evidence);
+  if (!missed.empty())
+    fmt::print(stderr, "heightlight: warning: {}: {}\n", options.map.path.string(), missed);
   if (options.run.quiet) return;
   const StepTimes& own = simulation.seconds;
   const Evidence& evidence = simulation.evidence;

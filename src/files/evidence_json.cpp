@@ -10,20 +10,18 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// The walks of a plan, and what the pilot expected of each part.
-void add_plan(const HorizonPlan& plan, bool has_links, Json& visibility) {
+void add_plan(const HorizonPlan& plan, bool gathers, Json& visibility) {
   visibility["azimuths"] = plan.sky.walk.azimuths;
   visibility["full_from"] = plan.sky.full_from;
   visibility["full_share"] = plan.sky.full_share;
   visibility["fineness"] = plan.sky.walk.fineness;
   visibility["peak_share"] = plan.sky.walk.peak_share;
-  if (has_links) {
-    visibility["links"] = {{"azimuths", plan.links.walk.azimuths},
-                           {"fineness", plan.links.walk.fineness},
-                           {"stride", plan.links.lattice_stride},
-                           {"own_share", plan.links.own_share}};
+  if (gathers) {
+    visibility["gathers"] = {{"azimuths", plan.gather.walk.azimuths},
+                             {"fineness", plan.gather.walk.fineness}};
   }
   visibility["expected_rmse"] = {{"sky_view_factor", plan.sky.error}};
-  if (has_links) visibility["expected_rmse"]["total_from_links"] = plan.links.error;
+  if (gathers) visibility["expected_rmse"]["total_from_gathers"] = plan.gather.error;
 }
 
 Json describe_check(const SkyCheck& check) {
@@ -54,7 +52,12 @@ Json describe_visibility(const Evidence& evidence) {
     visibility["checked"] = {{"receivers", check.receivers},
                              {"azimuths", check.azimuths},
                              {"sky_view_factor_rmse", check.sky_rmse},
-                             {"total_rmse", check.total_rmse}};
+                             {"total_rmse", check.total_rmse},
+                             {"total_standard_error", check.total_standard_error}};
+  }
+  if (evidence.plan) {
+    visibility["refined"] = evidence.refined;
+    visibility["missed"] = !missed_error(evidence).empty();
   }
   if (evidence.total_checks.size() > 1) {
     for (const HorizonCheck& check : evidence.total_checks) {

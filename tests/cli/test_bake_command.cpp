@@ -71,11 +71,11 @@ TEST_CASE("the sidecar says what was asked for and what came of it", "[cli][bake
   CHECK(sidecar["errors"]["ao_rmse"].get<double>() < 0.004);
   CHECK(sidecar["errors"]["multibounce_rmse"].get<double>() < 0.004);
   CHECK(sidecar["visibility"]["checked_sky"]["receivers"] == 256);
-  CHECK(sidecar["visibility"]["checked"]["receivers"] == 256);
-  CHECK(sidecar["visibility"]["expected_rmse"]["total_from_links"].get<double>() > 0);
-  CHECK(sidecar["links"]["count"].get<std::uint64_t>() > 0);
-  CHECK(sidecar["memory"]["estimated_bytes"].get<std::uint64_t>() >
-        sidecar["links"]["bytes"].get<std::uint64_t>());
+  CHECK(sidecar["visibility"]["checked"]["receivers"].get<int>() >= 256);
+  CHECK(sidecar["visibility"]["expected_rmse"]["total_from_gathers"].get<double>() > 0);
+  CHECK(sidecar["links"]["count"] == 0);
+  CHECK(sidecar["links"]["bytes"] == 0);
+  CHECK(sidecar["memory"]["estimated_bytes"].get<std::uint64_t>() > 0);
   const Picture total = read_picture(folder / "out" / "brick_multibounce.png");
   CHECK(total.channels == std::vector<std::string>{"R", "G", "B"});
 }

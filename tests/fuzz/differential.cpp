@@ -39,9 +39,8 @@ int main(int argument_count, char** arguments) {
   }
   std::printf(
       "%llu maps, %d with a mismatch; largest differences: slices and rays %.2g (where screening asked), "
-      "lanes "
-      "and twin %.2g, sky + sum F from 1 %.2g\n",
+      "lanes and twin %.2g, the gather's lanes %.2g, sky + sum F from 1 %.2g\n",
       static_cast<unsigned long long>(tried), faulty, largest.slices_and_rays, largest.lanes_and_twin,
-      largest.row_sum);
+      largest.gather_lanes, largest.row_sum);
   return faulty == 0 ? 0 : 1;
 }

@@ -56,9 +56,9 @@ double rms_error(const TexelVector& truth, const std::function<double(std::size_
 /// In the order of figures.csv.
 std::vector<double> measure(const char* shape) {
   const Surface surface = build_surface(make_synth_map(shape, 256, Boundary::tile, 0.1));
-  const PlannedTransport planned = plan_horizon_transport(surface, {}, {});
+  const PlannedTransport planned = plan_horizon_transport(surface, {});
   const Transport& transport = *planned.transport;
-  const TexelVector total = solve_totals(transport, {kAlbedo}, 1e-4).totals[0];
+  const TexelVector total = transport.solve({{.albedo = kAlbedo}}, {}).irradiance[0];
   const HorizonCheck check =
       check_by_exact_walks(surface, transport.direct, {{.total = total, .albedo = kAlbedo}}, 1)[0];
   GtaoOptions preset;

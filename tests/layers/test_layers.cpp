@@ -58,7 +58,7 @@ const std::map<std::string, std::string> kLayerOfPublicHeader = {
     {"visibility.h", "visibility"},
     {"transport.h", "transport"},
     {"curves.h", "curves"},
-    {"forms.h", "forms"},
+    {"forms.h", "base"},  // formulas alone, for everybody
     {"closed_forms.h", "forms"},
     {"evidence.h", "solve"},
     {"solve.h", "solve"},

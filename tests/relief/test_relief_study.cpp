@@ -42,9 +42,9 @@ TEST_CASE("At its own relief and size a map's study is the map's own curves", "[
   const std::vector<ReliefCurves> study =
       study_reliefs(map, {.relief_shares = {share}, .largest_side = 32, .bounces = 2, .bins = 20});
   const Surface surface = build_surface(map);
-  const std::unique_ptr<Transport> transport = build_horizon_transport(surface, study_plan(), {});
+  const std::unique_ptr<Transport> transport = build_horizon_transport(surface, study_plan());
   CurveBuilder builder(transport->ambient_occlusion, AoKind::ambient_occlusion, 20);
-  bounce(*transport, surface, 2, {}, [&](int, const TexelVector& e) { builder.add(e); });
+  bounce(*transport, surface, 2, [&](int, const TexelVector& e) { builder.add(e); });
   const BounceCurves& own = builder.curves();
   REQUIRE(study.size() == 1);
   REQUIRE(study[0].curves.filled.size() == own.filled.size());

@@ -309,11 +309,12 @@ TEST_CASE("memory that does not do is refused before any is taken", "[solve]") {
     CHECK(error.remedy == "memory");
     CHECK_THAT(error.what(), Catch::Contains("64 × 64") && Catch::Contains("MiB"));
   }
-  // Room for everything but links: they are walked again, and the results are the same.
+  // A byte more is enough: walks store no links.
   request.limits.memory = needed + 1;
   const Results tight = solve(surface, request);
   request.limits.memory = ~0ULL;
   CHECK(tight.totals == solve(surface, request).totals);
+  CHECK(tight.evidence.links == 0);
   CHECK(tight.evidence.link_bytes == 0);
 }
 

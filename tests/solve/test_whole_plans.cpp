@@ -36,8 +36,8 @@ TEST_CASE("the study of reliefs walks all azimuths of its plan", "[solve]") {
   const HorizonPlan& plan = study_plan();
   CHECK(plan.sky.walk.azimuths == 48);
   CHECK(plan.sky.full_from == 0);
-  CHECK(plan.links.own_share == 1);
-  CHECK(plan.links.lattice_stride == 1);
+  CHECK(plan.gather.walk.azimuths == 8);
+  CHECK(plan.gather.walk.fineness == 16);
 
   const Surface wall = make_wall(128);
   Request request;
@@ -50,7 +50,7 @@ TEST_CASE("the study of reliefs walks all azimuths of its plan", "[solve]") {
   // With every other azimuth left out, A erred by .0032 here, and α by .0045.
   CHECK(rms(studied.sky_view_factor, exact.sky_view_factor) < 0.002);
   CHECK(rms(studied.ambient_occlusion, exact.ambient_occlusion) < 0.003);
-  CHECK(rms(studied.bounces[1], exact.bounces[1]) < 0.004);  // 12 azimuths of links: .0033
+  CHECK(rms(studied.bounces[1], exact.bounces[1]) < 0.004);  // 16 of one gather: .0028
 }
 
 TEST_CASE("the planned walk that is compared is the one that simulations make", "[solve]") {

@@ -31,7 +31,7 @@ TEST_CASE("on every hard map one total bounds all others, and the n stored gives
     CAPTURE(hard.name);
     const Simulated simulated = simulate_map(hard.map, by_exact_slices(16), 0);
     const TexelVector stored = total_at(simulated, kSeenAlbedo);
-    const double residual = 300 * simulated.transport->solver_tolerance();
+    const double residual = 300 * simulated.residual;
     for (const double albedo : {0.3, 0.9}) {
       const TexelVector total = total_at(simulated, albedo);
       for_samples(simulated, [&](std::size_t i, SkyViewFactor<double> sky) {

@@ -77,8 +77,8 @@ TEST_CASE("512 exact azimuths see the light that 65536 rays see: A to 3e-4, the 
   const std::optional<Heightmap> map = named_map(name);
   if (!map) return;
   const Surface surface = build_surface(*map);
-  const PlannedTransport planned = plan_horizon_transport(surface, {.error = 0.002}, {});
-  const TexelVector light = solve_totals(*planned.transport, {kAlbedo}, 1e-4).totals[0];
+  const PlannedTransport planned = plan_horizon_transport(surface, {.error = 0.002});
+  const TexelVector light = total_of(*planned.transport, kAlbedo);
   const TexelVector radiosity = to_texels(kAlbedo * as_eigen(light));
   const ExactWalker walker(surface, 512);
   const RayCaster caster(surface, {.rays = 65536, .seed = 5});

@@ -1,12 +1,15 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "heightlight/transport.h"
 #include "test_maps.h"
 #include "transport/horizon_pilot.h"
 #include "transport/horizon_plan.h"
 #include "transport/root_mean_square.h"
+#include "transport/simulated.h"
 
 namespace heightlight {
 namespace {
@@ -21,8 +24,7 @@ Surface make_ground(const std::string& name) {
 std::unique_ptr<Transport> walk(const Surface& surface) {
   return build_horizon_transport(surface,
                                  {.sky = {.walk = {.azimuths = 24, .fineness = 16, .peak_share = 0.3F}},
-                                  .links = {.walk = {.azimuths = 16, .fineness = 16, .peak_share = 0.3F}}},
-                                 {});
+                                  .gather = {.walk = {.azimuths = 16, .fineness = 16, .peak_share = 0.3F}}});
 }
 
 struct Goal {
@@ -35,8 +37,8 @@ struct Goal {
 /// Plans, bounces at ρ = 0.8, and has exact walks of receivers that the pilot did not see judge the result.
 HorizonCheck reach(const Goal& goal, Boundary boundary) {
   const Surface surface = build_surface(make_synth_map(goal.shape.c_str(), goal.size, boundary, goal.relief));
-  const PlannedTransport planned = plan_horizon_transport(surface, {.error = goal.error}, {});
-  const TexelVector total = solve_totals(*planned.transport, {0.8}, 0.1 * goal.error).totals[0];
+  const PlannedTransport planned = plan_horizon_transport(surface, {.error = goal.error});
+  const TexelVector total = total_of(*planned.transport, 0.8);
   return check_by_exact_walks(surface, planned.transport->direct, {{.total = total, .albedo = 0.8}}, 7)[0];
 }
 
@@ -44,7 +46,7 @@ void check_goal(const Goal& goal, Boundary boundary) {
   const HorizonCheck check = reach(goal, boundary);
   INFO(goal.shape << ", " << goal.size << ", relief " << goal.relief << ", " << to_string(boundary)
                   << ", error " << goal.error << ": A " << check.sky_rmse << ", total " << check.total_rmse);
-  CHECK(check.receivers == 256);
+  CHECK(check.receivers >= 256);
   // Monte Carlo: the pilot's RMSE of a few hundred receivers whose errors have long tails, in a few tiles,
   // against that of 256 others: a factor of 1.5. (Measured: 0.5 to 1.05 for A, 0.15 to 1.15 for the total.)
   CHECK(check.sky_rmse < 1.5 * goal.error);
@@ -76,13 +78,13 @@ TEST_CASE("a plan for the total alone reaches its error, and walks the sky at no
   const std::string shape = GENERATE("brick", "fbm", "cobbles");
   const double error = GENERATE(0.01, 0.005);
   const Surface surface = build_surface(make_synth_map(shape.c_str(), 256, Boundary::open, 0.1));
-  const PlannedTransport planned = plan_horizon_transport(surface, {.error = error, .total_only = true}, {});
-  const TexelVector total = solve_totals(*planned.transport, {0.8}, 0.1 * error).totals[0];
+  const PlannedTransport planned = plan_horizon_transport(surface, {.error = error, .total_only = true});
+  const TexelVector total = total_of(*planned.transport, 0.8);
   const HorizonCheck check =
       check_by_exact_walks(surface, planned.transport->direct, {{.total = total, .albedo = 0.8}}, 7)[0];
   INFO(shape << ", error " << error << ": A " << check.sky_rmse << ", total " << check.total_rmse);
   CHECK(check.total_rmse < 1.5 * error);  // Monte Carlo, as in check_goal
-  const HorizonPlan both = plan_horizon_transport(surface, {.error = error}, {}).plan;
+  const HorizonPlan both = plan_horizon_transport(surface, {.error = error}).plan;
   const double saved = 1 - sky_cost(planned.plan.sky) / sky_cost(both.sky);
   CHECK(saved >= 0);
   if (shape == "fbm") CHECK(saved > 0.2);  // what it sees is nearly as bright as it is: little hangs on A
@@ -93,7 +95,7 @@ TEST_CASE("a pilot tells the total that receivers see", "[transport][horizon]") 
   const double relief = GENERATE(0.1, 0.3);
   const Surface surface = build_surface(make_synth_map(shape.c_str(), 128, Boundary::tile, relief));
   const auto transport = walk(surface);
-  const TexelVector total = solve_totals(*transport, {0.8}, 1e-4).totals[0];
+  const TexelVector total = total_of(*transport, 0.8);
   const TexelVector gathered = gather(*transport, total);
   const double seen = as_eigen(gathered).sum() / (1 - as_eigen(transport->direct).array()).sum();
   const Watch watch;
@@ -106,7 +108,7 @@ TEST_CASE("a pilot tells the total that receivers see", "[transport][horizon]") 
 
 TEST_CASE("a plan keeps to the azimuths that are given", "[transport][horizon]") {
   const Surface surface = build_surface(make_synth_map("fbm", 64, Boundary::tile, 0.2));
-  CHECK(plan_horizon_transport(surface, {.error = 0.01, .azimuths = 6}, {}).plan.sky.walk.azimuths == 6);
+  CHECK(plan_horizon_transport(surface, {.error = 0.01, .azimuths = 6}).plan.sky.walk.azimuths == 6);
 }
 
 TEST_CASE("maps with few receivers or none are planned and walked", "[transport][horizon]") {
@@ -114,32 +116,35 @@ TEST_CASE("maps with few receivers or none are planned and walked", "[transport]
   const double missing = GENERATE(0.0, 0.5, 0.99);
   const auto [width, height] = GENERATE(std::pair{1, 1}, std::pair{1, 9}, std::pair{2, 3}, std::pair{70, 2});
   const Surface surface = build_surface(make_rough_map(width, height, boundary, 0.3, missing, 5));
-  const PlannedTransport planned = plan_horizon_transport(surface, {.error = 0.01}, {});
+  const PlannedTransport planned = plan_horizon_transport(surface, {.error = 0.01});
   CHECK(row_sum_error(*planned.transport) < 1e-15);
 }
 
-TEST_CASE("totals without keeping bounces are those of the solver, within a few tolerances",
+TEST_CASE("totals by few gathers are those of the solver, within the error that ending may leave",
           "[transport][horizon]") {
   const std::string name = GENERATE("rough, holes", "deep brick", "sines");
+  const double error = GENERATE(1e-2, 2e-3);
   const Surface surface = make_ground(name);
-  const auto transport = walk(surface);
-  const double tolerance = GENERATE(1e-2, 1e-3);
+  // So many azimuths that it hardly matters which they are.
+  const HorizonPlan plan{.sky = {.walk = {.azimuths = 24, .fineness = 16, .peak_share = 0.3F}},
+                         .gather = {.walk = {.azimuths = 128, .fineness = 16, .peak_share = 0.3F}}};
+  const auto transport = build_horizon_transport(surface, plan, error);
   const std::vector<double> albedos{0.3, 0.8, 0.95};
+  int most = 0;
   for (const double albedo : albedos) {
-    const TotalIrradiance totals = solve_totals(*transport, {albedo}, tolerance);
-    CHECK(totals.change <= tolerance);
+    const Totals totals = transport->solve({{.albedo = albedo}}, {});
+    most = std::max(most, totals.gathers);
     const Equilibrium solved = solve_equilibrium(
         *transport, transport->direct, TexelVector(transport->direct.size(), albedo), transport->direct);
-    const double error = rms(as_eigen(totals.totals[0]) - as_eigen(solved.irradiance));
-    INFO(name << ", albedo " << albedo << ": " << error);
-    // truncation: the changes after the last one looked at, a geometric series (measured: 2.4 tolerances at
-    // most, among deep bricks at albedo 0.95)
-    CHECK(error < 3 * tolerance);
+    const double found = rms(as_eigen(totals.irradiance[0]) - as_eigen(solved.irradiance));
+    INFO(name << ", albedo " << albedo << ": " << found << " after " << totals.gathers);
+    // Truncation may leave half of the error; few azimuths leave the rest (measured: up to 0.29 of it).
+    CHECK(found < 0.5 * error);
   }
-  // Together they take as many bounces as the one that needs the most.
-  const TotalIrradiance together = solve_totals(*transport, albedos, tolerance);
-  CHECK(together.totals.size() == 3);
-  CHECK(together.bounces >= solve_totals(*transport, {0.95}, tolerance).bounces);
+  // Together they take as many gathers as the one that needs the most.
+  const Totals together = transport->solve({{.albedo = 0.3}, {.albedo = 0.8}, {.albedo = 0.95}}, {});
+  CHECK(together.irradiance.size() == 3);
+  CHECK(together.gathers == most);
 }
 
 TEST_CASE("a tail from conservation is exact at albedo 1", "[transport][horizon]") {
@@ -147,7 +152,7 @@ TEST_CASE("a tail from conservation is exact at albedo 1", "[transport][horizon]
   const int last = GENERATE(1, 5, 20);
   const Surface surface = make_ground(name);
   const auto transport = walk(surface);
-  const BounceSeries series = bounce(*transport, surface, last, {}, [](int, const TexelVector&) {});
+  const BounceSeries series = bounce(*transport, surface, last, [](int, const TexelVector&) {});
   const TexelVector tail = conserve_tail(*transport, series.sum, series.last, last, 1);
   for (std::size_t i = 0; i < tail.size(); ++i) {
     const bool hole = std::isnan(surface.map.height.values[i]);
@@ -161,12 +166,12 @@ TEST_CASE("a tail from conservation comes near the solved one below albedo 1, th
   const std::string name = GENERATE("rough, holes", "deep brick", "sines");
   const double albedo = GENERATE(0.5, 0.8);
   const Surface surface = make_ground(name);
-  const auto transport = walk(surface);
+  const SteadyWalks transport(walk(surface));
   double before = 1;
   for (const int last : {1, 5, 20}) {
-    const BounceSeries series = bounce(*transport, surface, last, {}, [](int, const TexelVector&) {});
-    const TexelVector solved = solve_tail(*transport, series, albedo).irradiance;
-    const TexelVector conserved = conserve_tail(*transport, series.sum, series.last, last, albedo);
+    const BounceSeries series = bounce(transport, surface, last, [](int, const TexelVector&) {});
+    const TexelVector solved = solve_tail(transport, series, albedo).irradiance;
+    const TexelVector conserved = conserve_tail(transport, series.sum, series.last, last, albedo);
     const double error = rms(as_eigen(conserved) - as_eigen(solved));
     INFO(name << ", albedo " << albedo << ", last bounce " << last << ": " << error << " of " << rms(solved));
     // truncation: what is left, ρ^{K+1} T, distributed over bounces by one ratio per texel
@@ -180,7 +185,7 @@ TEST_CASE("a tail from conservation comes near the solved one below albedo 1, th
 TEST_CASE("the check by exact walks sees an error that is put in", "[transport][horizon]") {
   const Surface surface = make_ground("sines");
   const auto transport = walk(surface);
-  const TexelVector total = solve_totals(*transport, {0.5}, 1e-4).totals[0];
+  const TexelVector total = total_of(*transport, 0.5);
   const TexelVector albedo(total.size(), 0.5);
   const auto check = [&](const TexelVector& checked) {
     return check_by_exact_walks(surface, transport->direct, {{.total = checked, .varying = &albedo}}, 1)[0];

@@ -15,4 +15,14 @@ std::string in_digits(Real value) {
   return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
 }
 
+/// So many significant digits, in any locale.
+template <class Real>
+std::string in_digits(Real value, int significant) {
+  static_assert(std::is_floating_point_v<Real>);
+  std::array<char, 64> digits{};
+  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value,
+                                       std::chars_format::general, significant)
+                             .ptr};
+}
+
 }  // namespace heightlight

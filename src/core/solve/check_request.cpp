@@ -80,8 +80,4 @@ bool keeps_sky(const Wanted& wanted) {
   return (wanted.sky || wanted.moments.first || wanted.moments.second) && !wanted.reach;
 }
 
-bool follows_from_bounces(const Wanted& wanted, const Albedo& albedo) {
-  return albedo.varying.empty() && wanted.direct.empty();
-}
-
 }  // namespace heightlight

@@ -2,13 +2,22 @@
 #include <memory>
 
 #include "base/stopwatch.h"
+#include "heightlight/closed_forms.h"
 #include "solve/solver.h"
 
 namespace heightlight {
 namespace {
 
-/// The operator; with horizon walks, moments of its sky, and how it walks.
-PlannedTransport find_operator(const Task& task) {
+void describe_operator(const PlannedTransport& found, const Task& task, Evidence& evidence) {
+  if (task.request.accuracy.visibility == Visibility::horizon_walks) evidence.plan = found.plan;
+  evidence.has_links = true;
+  evidence.links = found.transport->link_count();
+  evidence.link_bytes = found.transport->bytes();
+}
+
+}  // namespace
+
+PlannedTransport find_operator(const Task& task, double error, const SkyWanted& moments) {
   const Request& request = task.request;
   const Accuracy& accuracy = request.accuracy;
   const LinkLimits limits{.memory = task.link_memory, .watch = request.watch};
@@ -20,85 +29,39 @@ PlannedTransport find_operator(const Task& task) {
     const int azimuths = task.request.accuracy.azimuths > 0 ? accuracy.azimuths : kExactAzimuths;
     found.transport = std::make_unique<FormFactors>(build_exact_form_factors(task.surface, azimuths, limits));
   } else if (accuracy.plan) {
-    found.transport = build_horizon_transport(task.surface, *accuracy.plan, limits);
+    found.transport = build_horizon_transport(task.surface, *accuracy.plan, error, request.watch);
     found.plan = *accuracy.plan;
   } else {
     const bool keeps = keeps_sky(request.wanted);
-    const HorizonGoal goal =
+    HorizonGoal goal =
         plan_goal(request, !keeps && !request.wanted.seen, keeps && request.wanted.moments.first);
-    found = plan_horizon_transport(task.surface, goal, limits, keeps ? request.wanted.moments : SkyWanted{});
+    goal.error = error;
+    found = plan_horizon_transport(task.surface, goal, moments, request.watch);
   }
   return found;
 }
 
-/// The channel of an albedo that reflects most.
-std::size_t brightest_channel(const Albedo& albedo) {
-  const auto& constant = albedo.constant;
-  if (!constant.empty()) {
-    return static_cast<std::size_t>(std::max_element(constant.begin(), constant.end()) - constant.begin());
-  }
-  const auto sum = [](const TexelVector& values) {
-    double all = 0;
-    for (const double value : values) all += value;
-    return all;
-  };
-  std::size_t brightest = 0;
-  for (std::size_t i = 1; i < albedo.varying.size(); ++i) {
-    if (sum(albedo.varying[i]) > sum(albedo.varying[brightest])) brightest = i;
-  }
-  return brightest;
-}
-
-/// By exact walks, all of them from the same receivers.
-void check_totals(const Task& task, const Transport& transport, Results& results) {
-  const Wanted& wanted = task.request.wanted;
-  std::vector<CheckedTotal> totals;
-  for (std::size_t a = 0; a < wanted.totals.size(); ++a) {
-    const Albedo& albedo = wanted.totals[a];
-    const std::size_t channel = brightest_channel(albedo);
-    totals.push_back({.total = results.totals[a][channel],
-                      .albedo = albedo.varying.empty() ? albedo.constant[channel] : 0,
-                      .varying = albedo.varying.empty() ? nullptr : &albedo.varying[channel],
-                      .direct = wanted.direct.empty() ? nullptr : &wanted.direct});
-  }
-  std::vector<HorizonCheck> checks = check_by_exact_walks(task.surface, transport.direct, totals,
-                                                          task.request.accuracy.seed, task.request.watch);
-  if (checks[0].receivers == 0) return;
-  results.evidence.sky_rmse = checks[0].sky_rmse;
-  results.evidence.total_checks = std::move(checks);
-}
-
-void describe_operator(const PlannedTransport& found, const Task& task, Evidence& evidence) {
-  if (task.request.accuracy.visibility == Visibility::horizon_walks) evidence.plan = found.plan;
-  evidence.has_links = true;
-  evidence.links = found.transport->link_count();
-  evidence.link_bytes = found.transport->bytes();
-}
-
-}  // namespace
-
 void find_light(const Task& task, Results& results) {
   const Request& request = task.request;
   const Wanted& wanted = request.wanted;
-  SolveTimes& seconds = results.evidence.seconds;
+  Evidence& evidence = results.evidence;
   Stopwatch watch;
-  PlannedTransport found = find_operator(task);
+  PlannedTransport found =
+      find_operator(task, request.accuracy.error, keeps_sky(wanted) ? wanted.moments : SkyWanted{});
   Transport& transport = *found.transport;
-  seconds.visibility += watch.lap();
-  describe_operator(found, task, results.evidence);
-  if (wanted.bounces > 0 && request.checks.energy) {
-    results.evidence.energy.emplace().row_sum_max_error = row_sum_error(transport);
-  }
-  seconds.transport += watch.lap();
+  describe_operator(found, task, evidence);
+  evidence.seconds.visibility += watch.lap();
+  if (wanted.bounces > 0 && request.checks.energy) evidence.energy.emplace();
+  const TexelVector at_seen_albedo = find_totals(task, transport, results);
+  watch.lap();
   if (wanted.bounces > 0) {
+    if (evidence.energy) evidence.energy->row_sum_max_error = row_sum_error(transport);
+    evidence.seconds.transport += watch.lap();
     solve_bounces(task, transport, results);
-  } else {
-    solve_totals_only(task, transport, results);
+    evidence.seen->deep = deep_seen(transport, at_seen_albedo);
   }
-  seconds.bounces += watch.lap() - seconds.sink;
-  const bool by_rays = request.accuracy.visibility == Visibility::rays;
-  if (!wanted.totals.empty() && request.checks.totals && !by_rays) check_totals(task, transport, results);
-  seconds.check += watch.lap();
+  if (wanted.seen) results.seen = solve_seen(transport.sky_view_factor, at_seen_albedo);
+  evidence.seconds.bounces += watch.lap() - evidence.seconds.sink;
   if (wanted.seen) results.whole_sky_view_factor = transport.sky_view_factor;
   if (!keeps_sky(wanted)) return;
   results.ambient_occlusion = std::move(transport.ambient_occlusion);

@@ -1,8 +1,10 @@
+#include <algorithm>
+
 #include "heightlight/solve.h"
 #include "solve/solver.h"
 #include "surface/maximum_pyramid.h"
 #include "transport/horizon_pilot.h"
-#include "transport/light_mips.h"
+#include "transport/map_gather.h"
 #include "visibility/height_mips.h"
 #include "visibility/horizon_sky.h"
 
@@ -25,26 +27,21 @@ std::uint64_t channels_of(const std::vector<Albedo>& albedos) {
 /// of its argument, and what is gathered.
 constexpr std::uint64_t kSolverVectors = 10 + 3;
 
+/// Maps of a system on its way: E twice, sums of what was seen and of its weights.
+constexpr std::uint64_t kSystemMaps = 4;
+
 /// Per texel, of the bounces and totals: their vectors beside the operator.
 std::uint64_t light_bytes(const Request& request) {
   const Wanted& wanted = request.wanted;
-  const std::uint64_t channels = channels_of(wanted.totals);
-  const bool stores_links = request.accuracy.visibility != Visibility::horizon_walks;
-  std::uint64_t solver = 0;
-  for (const Albedo& albedo : wanted.totals) {
-    if (!follows_from_bounces(wanted, albedo)) solver = kSolverVectors * kVector;
-  }
-  std::uint64_t bytes = kVector * channels + (wanted.seen ? 2 * kMap : 0);
-  if (wanted.bounces > 0) {
-    // E_b, E_{b+1}, their sum, a weighted sum per channel and at kSeenAlbedo, the tail.
-    bytes += kVector * (4 + channels + 1);
-    if (stores_links) solver = kSolverVectors * kVector;
-    if (!request.sink) bytes += kVector * static_cast<std::uint64_t>(wanted.bounces + 1);
-  } else {
-    bytes +=
-        kVector * (2 + (wanted.seen ? 1 : 0)) + sizeof(float);  // E_b, E_{b+1}, n's own total, and their sum
-  }
-  return bytes + solver;
+  const std::uint64_t systems = channels_of(wanted.totals) + (wanted.seen || wanted.bounces > 0 ? 1 : 0);
+  const bool walks = request.accuracy.visibility == Visibility::horizon_walks;
+  std::uint64_t bytes = kVector * systems + (wanted.seen ? 2 * kMap : 0);
+  const std::uint64_t solving = walks ? systems * kSystemMaps * kMap : kSolverVectors * kVector;
+  // E_b, E_{b+1}, their sum and the tail are gone when totals are solved for.
+  const std::uint64_t bouncing = wanted.bounces > 0 ? 4 * kVector + kMap : 0;
+  bytes += std::max(solving, bouncing);
+  if (wanted.bounces > 0 && !request.sink) bytes += kVector * static_cast<std::uint64_t>(wanted.bounces + 1);
+  return bytes;
 }
 
 }  // namespace
@@ -62,9 +59,12 @@ std::uint64_t estimate_memory(int width, int height, const Request& request) {
     pyramids += horizon_pilot_bytes(width, height);
   if (needs_operator(wanted)) {
     per_texel += kVector + light_bytes(request);  // the direct light
-    // What each receiver sees, and the light that it sees it by.
-    per_texel += kMap;
-    pyramids += light_mips_bytes(width, height);
+    if (request.accuracy.visibility == Visibility::horizon_walks) {
+      // The heights that gathers look at, and the fields that one reads at once.
+      const std::uint64_t fields =
+          std::min<std::uint64_t>(kMostFields, std::max<std::uint64_t>(1, channels_of(wanted.totals)));
+      pyramids += gather_bytes(width, height, fields);
+    }
     if (wanted.reach && (wanted.sky || wanted.moments.first)) per_texel += horizon_sky_bytes({});
   }
   return texels * per_texel + pyramids;

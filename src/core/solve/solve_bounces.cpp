@@ -9,40 +9,12 @@
 namespace heightlight {
 namespace {
 
-/// Of the error wanted, what ending the bounces may take.
-constexpr double kBounceShare = 0.2;
-
-/// What is left after the last bounce, at constant albedo: solved for where links are exact, from
-/// conservation where they are walked.
-Equilibrium find_tail(const Task& task, const Transport& transport, const BounceSeries& series,
-                      double albedo) {
+/// What is left after the last bounce at ρ = 1: solved for where links are stored, from conservation where
+/// each bounce walks otherwise.
+Equilibrium find_tail(const Task& task, const Transport& transport, const BounceSeries& series) {
   const bool walks = task.request.accuracy.visibility == Visibility::horizon_walks;
-  if (!walks) return solve_tail(transport, series, albedo, task.request.watch);
-  return {.irradiance = conserve_tail(transport, series.sum, series.last, series.bounces, albedo)};
-}
-
-/// E/π of all bounces at kSeenAlbedo, the last of the series' albedos.
-TexelVector seen_total(const Transport& transport, const BounceSeries& series) {
-  TexelVector total = series.weighted.back();
-  as_eigen(total) += as_eigen(conserve_tail(transport, series.sum, series.last, series.bounces, kSeenAlbedo));
-  return total;
-}
-
-/// t, from what is seen at kSeenAlbedo.
-double find_deep_seen(const Map& sky_view_factor, const TexelVector& total) {
-  SeenMoments moments;
-  for (std::size_t i = 0; i < total.size(); ++i) {
-    const SkyViewFactor<double> sky(double{sky_view_factor.values[i]});
-    if (!std::isnan(sky.value)) moments.add(sky, seen_from_total(sky, total[i], kSeenAlbedo));
-  }
-  return tune_deep_seen(moments).value;
-}
-
-void note_solution(const Equilibrium& solved, Evidence& evidence) {
-  if (!evidence.energy) return;
-  EnergyCheck& energy = *evidence.energy;
-  energy.solver_residual = std::max(energy.solver_residual, solved.residual);
-  energy.solver_iterations = std::max(energy.solver_iterations, solved.iterations);
+  if (!walks) return solve_tail(transport, series, 1, task.request.watch);
+  return {.irradiance = conserve_tail(transport, series.sum, series.last, series.bounces, 1)};
 }
 
 /// Compares E₀ + … + E_K + tail with 1. (A tail from conservation is taken from that sum; the rows are
@@ -110,96 +82,29 @@ class Recipient {
   SeenSky seen_;
 };
 
-/// Constant albedos whose totals follow from bounces, in the order of the request's channels.
-std::vector<double> constant_albedos(const Wanted& wanted) {
-  std::vector<double> albedos;
-  for (const Albedo& albedo : wanted.totals) {
-    if (!follows_from_bounces(wanted, albedo)) continue;
-    albedos.insert(albedos.end(), albedo.constant.begin(), albedo.constant.end());
-  }
-  return albedos;
-}
-
-/// Puts `found`, one total per constant albedo in that order, where they belong, and solves for the rest.
-void place_totals(const Task& task, const Transport& transport, std::vector<TexelVector> found,
-                  Results& results) {
-  const Wanted& wanted = task.request.wanted;
-  auto next = found.begin();
-  for (const Albedo& albedo : wanted.totals) {
-    if (!follows_from_bounces(wanted, albedo)) {
-      results.totals.push_back(solve_albedo(task, transport, albedo, results));
-      continue;
-    }
-    std::vector<TexelVector>& channels = results.totals.emplace_back();
-    for (std::size_t c = 0; c < albedo.constant.size(); ++c) channels.push_back(std::move(*next++));
-  }
-}
-
 }  // namespace
 
-std::vector<TexelVector> solve_albedo(const Task& task, const Transport& transport, const Albedo& albedo,
-                                      Results& results) {
-  const TexelVector& own = task.request.wanted.direct;
-  const TexelVector& direct = own.empty() ? transport.direct : own;
-  std::vector<TexelVector> channels;
-  const auto solve_one = [&](const TexelVector& reflectance) {
-    Equilibrium solved = solve_equilibrium(transport, direct, reflectance, direct, task.request.watch);
-    note_solution(solved, results.evidence);
-    channels.push_back(std::move(solved.irradiance));
-  };
-  for (const double constant : albedo.constant) solve_one(TexelVector(direct.size(), constant));
-  for (const TexelVector& reflectance : albedo.varying) solve_one(reflectance);
-  return channels;
+double deep_seen(const Transport& transport, const TexelVector& at_seen_albedo) {
+  SeenMoments moments;
+  for (std::size_t i = 0; i < at_seen_albedo.size(); ++i) {
+    const SkyViewFactor<double> sky(double{transport.sky_view_factor.values[i]});
+    if (!std::isnan(sky.value)) moments.add(sky, seen_from_total(sky, at_seen_albedo[i], kSeenAlbedo));
+  }
+  return tune_deep_seen(moments).value;
 }
 
 void solve_bounces(const Task& task, const Transport& transport, Results& results) {
   const Request& request = task.request;
   Evidence& evidence = results.evidence;
   Recipient recipient(task, transport, results);
-  std::vector<double> albedos = constant_albedos(request.wanted);
-  albedos.push_back(kSeenAlbedo);
   const auto visit = [&](int b, const TexelVector& irradiance) { recipient.take(b, irradiance); };
-  BounceSeries series =
-      bounce(transport, task.surface, request.wanted.bounces, albedos, visit, request.watch);
+  const BounceSeries series = bounce(transport, task.surface, request.wanted.bounces, visit, request.watch);
   evidence.bounces = request.wanted.bounces;
-  Equilibrium tail = find_tail(task, transport, series, 1);
-  note_solution(tail, evidence);
+  Equilibrium tail = find_tail(task, transport, series);
+  note_solver(tail.residual, tail.iterations, evidence);
   if (evidence.energy) check_energy(transport, series, tail.irradiance, *evidence.energy);
   recipient.take_tail(std::move(tail.irradiance));
-  std::vector<TexelVector> totals;
-  for (std::size_t i = 0; i + 1 < albedos.size(); ++i) {
-    const Equilibrium rest = find_tail(task, transport, series, albedos[i]);
-    note_solution(rest, evidence);
-    as_eigen(series.weighted[i]) += as_eigen(rest.irradiance);
-    totals.push_back(std::move(series.weighted[i]));
-  }
-  place_totals(task, transport, std::move(totals), results);
-  const TexelVector at_seen_albedo = seen_total(transport, series);
-  if (request.wanted.seen) results.seen = solve_seen(transport.sky_view_factor, at_seen_albedo);
   evidence.seen = recipient.seen();
-  evidence.seen->deep = find_deep_seen(transport.sky_view_factor, at_seen_albedo);
-}
-
-void solve_totals_only(const Task& task, const Transport& transport, Results& results) {
-  const Request& request = task.request;
-  std::vector<double> albedos = constant_albedos(request.wanted);
-  auto at_seen = std::find(albedos.begin(), albedos.end(), kSeenAlbedo);
-  if (request.wanted.seen && at_seen == albedos.end()) {
-    albedos.push_back(kSeenAlbedo);
-    at_seen = albedos.end() - 1;
-  }
-  std::vector<TexelVector> totals;
-  if (!albedos.empty()) {
-    TotalIrradiance solved =
-        solve_totals(transport, albedos, kBounceShare * request.accuracy.error, request.watch);
-    results.evidence.bounces = solved.bounces;
-    totals = std::move(solved.totals);
-  }
-  if (request.wanted.seen) {
-    results.seen =
-        solve_seen(transport.sky_view_factor, totals[static_cast<std::size_t>(at_seen - albedos.begin())]);
-  }
-  place_totals(task, transport, std::move(totals), results);
 }
 
 }  // namespace heightlight

@@ -37,18 +37,20 @@ void find_light(const Task& task, Results& results);
 /// The sky alone, as far as the reach, and horizons, where no operator has found them.
 void find_sky(const Task& task, Results& results);
 
-/// Single bounces into the sink or the results, the tail, the totals and n from their sums: what find_light
-/// does where they are wanted.
+/// The operator; with horizon walks for that error, the moments wanted of its sky, and how it walks.
+PlannedTransport find_operator(const Task& task, double error, const SkyWanted& moments);
+
+/// Notes what a linear solver did, where the energy is checked.
+void note_solver(double residual, int iterations, Evidence& evidence);
+
+/// The totals asked for, checked, and found once more where they miss the error wanted; and E/π at
+/// kSeenAlbedo, which is returned, where n or single bounces are wanted.
+TexelVector find_totals(const Task& task, const Transport& transport, Results& results);
+
+/// t of the closed forms, from E/π at kSeenAlbedo.
+double deep_seen(const Transport& transport, const TexelVector& at_seen_albedo);
+
+/// Single bounces into the sink or the results, and the tail.
 void solve_bounces(const Task& task, const Transport& transport, Results& results);
-
-/// Totals and n without keeping bounces apart: what find_light does otherwise.
-void solve_totals_only(const Task& task, const Transport& transport, Results& results);
-
-/// Solves x = direct + F ρ x for every channel of an albedo that varies, or of any with light of one's own.
-std::vector<TexelVector> solve_albedo(const Task& task, const Transport& transport, const Albedo& albedo,
-                                      Results& results);
-
-/// Whether an albedo's totals follow from bounces at ρ = 1.
-bool follows_from_bounces(const Wanted& wanted, const Albedo& albedo);
 
 }  // namespace heightlight

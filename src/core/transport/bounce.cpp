@@ -8,6 +8,8 @@
 namespace heightlight {
 namespace {
 
+constexpr double kRounding = 1e-12;
+
 /// ⟨a, b⟩ with every texel weighing its area: reciprocity, area_i F_ij = area_j F_ji, makes F symmetric under
 /// it.
 double area_product(const TexelVector& a, const TexelVector& b, const Surface& surface) {
@@ -22,27 +24,26 @@ double area_product(const TexelVector& a, const TexelVector& b, const Surface& s
 }  // namespace
 
 BounceSeries bounce(const Transport& transport, const Surface& surface, int bounces,
-                    const std::vector<double>& albedos,
                     const std::function<void(int, const TexelVector&)>& visit, const Watch& watch) {
   Progress progress("bounces", bounces + 1, watch);
   BounceSeries series;
   series.bounces = bounces;
   TexelVector last = transport.direct;
   series.sum = last;
-  series.weighted.assign(albedos.size(), last);
   visit(0, last);
   for (int b = 1; b <= bounces; ++b) {
     progress.throw_if_stopped();
-    last = transport.gather(last);
+    last = transport.next_bounce(last, b);
+    // No more than is left: walks that turn from bounce to bounce might find more, by their noise. (What is
+    // left is known to a few ε.)
+    const auto left = (1 - as_eigen(series.sum).array()).max(0.0) + kRounding;
+    as_eigen(last) = as_eigen(last).array().min(left).matrix();
     as_eigen(series.sum) += as_eigen(last);
-    for (std::size_t i = 0; i < albedos.size(); ++i) {
-      as_eigen(series.weighted[i]) += std::pow(albedos[i], b) * as_eigen(last);
-    }
     visit(b, last);
     progress.add(1);
   }
   series.last = last;
-  series.next = transport.gather(last);
+  series.next = transport.next_bounce(last, bounces + 1);
   const double length = area_product(last, last, surface);
   series.spectral_radius = length > 0 ? area_product(last, series.next, surface) / length : 0;
   return series;

@@ -1,5 +1,6 @@
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseCore>
+#include <algorithm>
 #include <cmath>
 
 #include "base/progress.h"
@@ -72,6 +73,7 @@ namespace heightlight {
 namespace {
 
 constexpr int kMostIterations = 2000;
+constexpr double kTolerance = 1e-8;
 
 }  // namespace
 
@@ -86,7 +88,7 @@ Equilibrium solve_equilibrium(const Transport& transport, const TexelVector& sou
   Progress progress("equilibrium", 0, watch);
   const LossOperator loss(transport, albedo, progress);
   Eigen::BiCGSTAB<LossOperator, Eigen::IdentityPreconditioner> solver;
-  solver.setTolerance(transport.solver_tolerance());
+  solver.setTolerance(kTolerance);
   solver.setMaxIterations(kMostIterations);
   solver.compute(loss);
   const Eigen::VectorXd solution = solver.solveWithGuess(as_eigen(source), as_eigen(guess));
@@ -94,6 +96,19 @@ Equilibrium solve_equilibrium(const Transport& transport, const TexelVector& sou
   result.residual = (as_eigen(source) - loss.times(solution)).norm() / size;
   result.irradiance = to_texels(solution);
   return result;
+}
+
+Totals FormFactors::solve(const std::vector<LightSystem>& systems, const Watch& watch) const {
+  Totals totals;
+  for (const LightSystem& system : systems) {
+    const TexelVector& source = system.direct ? *system.direct : direct;
+    const TexelVector albedo = system.varying ? *system.varying : TexelVector(source.size(), system.albedo);
+    Equilibrium solved = solve_equilibrium(*this, source, albedo, source, watch);
+    totals.iterations = std::max(totals.iterations, solved.iterations);
+    totals.residual = std::max(totals.residual, solved.residual);
+    totals.irradiance.push_back(std::move(solved.irradiance));
+  }
+  return totals;
 }
 
 Equilibrium solve_tail(const Transport& transport, const BounceSeries& series, double albedo,

@@ -7,27 +7,31 @@
 
 namespace heightlight {
 
-/// Σ F x over what an exact walk saw, x interpolated linearly at each place. `value` gives x by the texel's
+/// x at the place that a link names, interpolated linearly on its facet. `value` gives x by the texel's
 /// index, finite everywhere; values at missing samples weigh in only where rounding puts a place beyond a
 /// hole's edge.
 template <class Value>
+double value_seen(const VisibleInterval& link, const Surface& surface, Value&& value) {
+  const SurfacePoint& place = link.place;
+  const int row = static_cast<int>(place.cell / static_cast<std::uint32_t>(surface.width()));
+  const int column = static_cast<int>(place.cell % static_cast<std::uint32_t>(surface.width()));
+  const auto corner = [&](int down, int right) -> double {
+    return value(
+        surface.map.height.index((row + down) % surface.height(), (column + right) % surface.width()));
+  };
+  const double across = place.across;
+  const double down = place.down;
+  const double both = std::min(across, down);
+  const double upper_left = corner(0, 0);
+  return upper_left + (across - both) * (corner(0, 1) - upper_left) +
+         (down - both) * (corner(1, 0) - upper_left) + both * (corner(1, 1) - upper_left);
+}
+
+/// Σ F x over what an exact walk saw.
+template <class Value>
 double gather_exactly(const SliceView& view, const Surface& surface, Value&& value) {
   double sum = 0;
-  for (const VisibleInterval& link : view.links) {
-    const SurfacePoint& place = link.place;
-    const int row = static_cast<int>(place.cell / static_cast<std::uint32_t>(surface.width()));
-    const int column = static_cast<int>(place.cell % static_cast<std::uint32_t>(surface.width()));
-    const auto corner = [&](int down, int right) -> double {
-      return value(
-          surface.map.height.index((row + down) % surface.height(), (column + right) % surface.width()));
-    };
-    const double across = place.across;
-    const double down = place.down;
-    const double both = std::min(across, down);
-    const double upper_left = corner(0, 0);
-    sum += link.weight * (upper_left + (across - both) * (corner(0, 1) - upper_left) +
-                          (down - both) * (corner(1, 0) - upper_left) + both * (corner(1, 1) - upper_left));
-  }
+  for (const VisibleInterval& link : view.links) sum += link.weight * value_seen(link, surface, value);
   return sum;
 }
 

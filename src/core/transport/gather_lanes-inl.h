@@ -137,15 +137,15 @@ class GatherLanes {
 
   HWY_INLINE GV bar_above(GV m) const {
     const GV least = hn::Set(kGF, task_.walk.least_rise);
-    return hn::MulAdd(hn::Mul(m, m), least, hn::Add(m, least));
+    return hn::MulAdd(hn::Abs(m), least, hn::Add(m, least));
   }
 
-  /// −S(m) but for a constant: c (h + sin h cos h) − n_z cos²h. With a = |sin h|, acos a = cos h · R(a), where
-  /// R is smooth: a polynomial gives it to 2e-5 (Lawson's algorithm), enough for weights of which only the
-  /// ratios count.
+  /// −S(m) but for a constant: c (h + sin h cos h) − n_z cos²h. With a = |sin h|, acos a = cos h · R(a),
+  /// where R is smooth: a polynomial gives it to 2e-5 (Lawson's algorithm), enough for weights of which only
+  /// the ratios count.
   static HWY_INLINE Horizon horizon_at(GV c, GV n_z, GV slope) {
-    constexpr std::array<float, 6> kRatio{1.5707749F, -0.9982547F, 0.7620501F,
-                                          -0.5471174F, 0.2818592F, -0.0693335F};
+    constexpr std::array<float, 6> kRatio{1.5707749F,  -0.9982547F, 0.7620501F,
+                                          -0.5471174F, 0.2818592F,  -0.0693335F};
     const GV one = hn::Set(kGF, 1.0F);
     const GV size = hn::Min(hn::Abs(slope), hn::Set(kGF, 1e18F));
     const GV square = hn::MulAdd(size, size, one);
@@ -236,8 +236,8 @@ class GatherLanes {
     return hn::MulAdd(place, hn::Sub(value_at(field, v, number), begin), begin);
   }
 
-  /// The middle of the triangle that the receiver is a corner of stands for what is seen of it, as it does for
-  /// rays (ray_traversal.h): the first sample lies on the side across.
+  /// The middle of the triangle that the receiver is a corner of stands for what is seen of it, as it does
+  /// for rays (ray_traversal.h): the first sample lies on the side across.
   HWY_INLINE GV own_facet(std::size_t field, std::size_t v, GV own) const {
     const GatherSample& sample = azimuth_.samples[0];
     const float* here = address(task_.fields[field]->level(0), v);
@@ -267,16 +267,18 @@ class GatherLanes {
     return hn::Min(hn::MulAdd(hn::Sub(one, begin), share, begin), one);
   }
 
-  /// Mean place of the stretch that comes into sight, as a share of it. slice_integrals.h derives the mean over
-  /// the chord between the directions to its ends; here two nodes do, those of Gauss and Legendre in the angle δ
-  /// between the directions. The one at the share f of δ lies at t = sin fδ / (sin fδ + sin (1 − f)δ) of the
-  /// chord, to which a cubic in 1 − cos δ comes within .001 up to 120°; and there 1/|v|⁴ is the same at both.
+  /// Mean place of the stretch that comes into sight, as a share of it. slice_integrals.h derives the mean
+  /// over the chord between the directions to its ends; here two nodes do, those of Gauss and Legendre in the
+  /// angle δ between the directions. The one at the share f of δ lies at t = sin fδ / (sin fδ + sin (1 − f)δ)
+  /// of the chord, to which a cubic in 1 − cos δ comes within .001 up to 120°; and there 1/|v|⁴ is the same
+  /// at both.
   static HWY_INLINE GV mean_share(const Horizon& from, const Horizon& to, GV from_way, GV to_way) {
     const GV one = hn::Set(kGF, 1.0F);
     const GV sines = hn::Mul(hn::Mul(from.slope, from.cosine), hn::Mul(to.slope, to.cosine));
     const GV cosine_between = hn::MulAdd(from.cosine, to.cosine, sines);
     const GV x = hn::Sub(one, cosine_between);
-    const GV rise = hn::MulAdd(hn::MulAdd(hn::Set(kGF, 0.0128F), x, hn::Set(kGF, -0.004F)), x, hn::Set(kGF, 0.036F));
+    const GV rise =
+        hn::MulAdd(hn::MulAdd(hn::Set(kGF, 0.0128F), x, hn::Set(kGF, -0.004F)), x, hn::Set(kGF, 0.036F));
     const GV first = hn::MulAdd(rise, x, hn::Set(kGF, 0.21132487F));
     const std::array<GV, 2> node{first, hn::Sub(one, first)};
     const GV step = hn::Sub(to.cosine, from.cosine);
@@ -286,7 +288,8 @@ class GatherLanes {
     // Both nodes' weights towards · along and shares near / reach, over one denominator.
     std::array<GV, 2> weight, near, reach;
     for (std::size_t i = 0; i < 2; ++i) {
-      weight[i] = hn::Mul(hn::MulAdd(node[i], towards_step, from.towards), hn::MulAdd(node[i], step, from.cosine));
+      weight[i] =
+          hn::Mul(hn::MulAdd(node[i], towards_step, from.towards), hn::MulAdd(node[i], step, from.cosine));
       near[i] = hn::Mul(node[i], near_scale);
       reach[i] = hn::MulAdd(node[1 - i], far_scale, near[i]);
     }
@@ -321,7 +324,7 @@ void gather_fields(const GatherTask& task, GatherSums& sums) {
   }
 }
 
-void gather_tile(const GatherTask& task, GatherSums& sums) {
+inline void gather_tile(const GatherTask& task, GatherSums& sums) {
   switch (task.field_count) {
     case 1:
       return gather_fields<1>(task, sums);

@@ -6,17 +6,14 @@
 namespace heightlight {
 namespace {
 
-/// 0 … count − 1 such that the first 2^k of them, for any k that divides, are evenly spread.
+/// 0 … count − 1, first every 2^kMostHalvings-th, then what makes them every other of these, and so on.
 std::vector<int> spread_order(int count) {
-  std::vector<int> order{0};
-  while (static_cast<int>(order.size()) < count && count % (2 * static_cast<int>(order.size())) == 0) {
-    const int step = count / (2 * static_cast<int>(order.size()));
-    const std::size_t half = order.size();
-    for (std::size_t i = 0; i < half; ++i) order.push_back(order[i] + step);
-  }
-  const int taken = static_cast<int>(order.size());
-  for (int part = 1; part < count / taken; ++part) {
-    for (int i = 0; i < taken; ++i) order.push_back(order[static_cast<std::size_t>(i)] + part);
+  std::vector<int> order;
+  for (int step = 1 << kMostHalvings; step > 0; step /= 2) {
+    const bool coarsest = step == 1 << kMostHalvings;
+    for (int k = 0; k < count; k += step) {
+      if (coarsest || k % (2 * step) != 0) order.push_back(k);
+    }
   }
   return order;
 }
@@ -49,6 +46,14 @@ GatherAzimuth flatten(const AzimuthTable& table, std::ptrdiff_t stride) {
 }
 
 }  // namespace
+
+int halved_azimuths(int azimuths, int halvings) {
+  while (halvings > 0 && azimuths % 2 == 0) {
+    azimuths /= 2;
+    --halvings;
+  }
+  return azimuths;
+}
 
 GatherWalk make_gather_walk(const Surface& surface, const WalkOptions& options, double turn,
                             const FieldPyramid& layout) {

@@ -10,11 +10,12 @@
 
 // What receivers see of a field on the surface, found while walking.
 //
-// Walking outward, the horizon's slope rises from m to m' wherever a new part of the surface comes into sight.
-// That part fills the slice between the two, twice whose irradiance is S(m) − S(m') (sky_walk.h), so that
+// Walking outward, the horizon's slope rises from m to m' wherever a new part of the surface comes into
+// sight. That part fills the slice between the two, twice whose irradiance is S(m) − S(m') (sky_walk.h), so
+// that
 //     Σ (S(m) − S(m')) x(place seen)  and  Σ (S(m) − S(m'))
-// over a receiver's azimuths have the mean of x that it sees as their ratio. Its product with 1 − A is F x: how
-// much of the surface is seen is the sky's walk's to say, which has more azimuths.
+// over a receiver's azimuths have the mean of x that it sees as their ratio. Its product with 1 − A is F x:
+// how much of the surface is seen is the sky's walk's to say, which has more azimuths.
 
 namespace heightlight {
 
@@ -28,18 +29,19 @@ constexpr int kGatherBlocks = ReceiverTile::kTexels / (kGatherBlock * kGatherBlo
 
 /// Index of the block that the receiver in row i and column j of a tile belongs to.
 constexpr std::size_t gather_block(int i, int j) {
-  return static_cast<std::size_t>(i / kGatherBlockRows * (ReceiverTile::kSide / kGatherBlock) + j / kGatherBlock);
+  return static_cast<std::size_t>(i / kGatherBlockRows * (ReceiverTile::kSide / kGatherBlock) +
+                                  j / kGatherBlock);
 }
 
 /// Where a walk looks, and reads the field: between two of the map's samples, or at a block.
 struct GatherSample {
   float way = 0;  ///< texels from the receiver
   float per_distance = 0;
-  float weight[2] = {0, 0};      ///< near: of each sample's height, over the world distance
-  float share = 0;               ///< near: of the second sample in the field
+  float weight[2] = {0, 0};         ///< near: of each sample's height, over the world distance
+  float share = 0;                  ///< near: of the second sample in the field
   std::int32_t offset[2] = {0, 0};  ///< near: of each sample from the receiver's, in level 0 of a pyramid
-  int level = 0;                 ///< of the block; 0: near
-  int row = 0;                   ///< of a place in the block, texels from the receiver
+  int level = 0;                    ///< of the block; 0: near
+  int row = 0;                      ///< of a place in the block, texels from the receiver
   int column = 0;
 };
 
@@ -52,10 +54,18 @@ struct GatherAzimuth {
   std::size_t near = 0;    ///< the first that looks at a block
 };
 
+/// How often a gather's azimuths can be halved for receivers that need not look so closely.
+constexpr int kMostHalvings = 3;
+
+/// Azimuths that are left after so many halvings, 0 … kMostHalvings, of an even number each: the rest are
+/// evenly spread, too.
+int halved_azimuths(int azimuths, int halvings);
+
 /// How a gather walks.
 struct GatherWalk {
-  float least_rise = 0.02F;  ///< β: a rise of a slope m by less than β (1 + m²) waits for the next
-  std::vector<GatherAzimuth> azimuths = {};  ///< such that the first of them, 2^k, are evenly spread, too
+  float least_rise = 0.02F;  ///< β: a rise of a slope m by less than β (1 + |m|) waits for the next
+  std::vector<GatherAzimuth> azimuths =
+      {};  ///< such that the first halved_azimuths of them are evenly spread
 };
 
 /// `azimuths`, in equal steps from `turn` of a step.
@@ -78,7 +88,7 @@ struct GatherTask {
   std::array<const FieldPyramid*, kMostFields> fields = {};
   std::size_t field_count = 1;
   std::array<std::uint16_t, kGatherBlocks> azimuths = {};  ///< of each block, the first so many; 0: none
-  float highest = 0;                                      ///< of all heights
+  float highest = 0;                                       ///< of all heights
 };
 
 /// Sets the sums of all receivers of the tile.

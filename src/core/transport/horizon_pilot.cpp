@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -11,8 +12,6 @@
 #include "base/parallel.h"
 #include "base/texel_algebra.h"
 #include "transport/exact_gather.h"
-#include "transport/link_replay.h"
-#include "transport/receiver_blocks.h"
 #include "visibility/horizon_sky.h"
 #include "visibility/sky_walk.h"
 #include "visibility/slice_integrals.h"
@@ -58,6 +57,11 @@ double sky_by_even_azimuths(const ExactWalker& walker, const Vector3& normal, co
     sky += cosine_mass(in_slice, elevation_of_slope(horizon), {});
   }
   return sky / whole;
+}
+
+/// x by texel, 0 where it is missing.
+auto finite_values(const Map& x) {
+  return [&x](std::size_t i) { return std::isnan(x.values[i]) ? 0.0 : double{x.values[i]}; };
 }
 
 }  // namespace
@@ -255,67 +259,63 @@ HorizonPilot::Sparse HorizonPilot::find_sparse(const WalkOptions& options, doubl
   return {std::numeric_limits<double>::infinity(), 0, root_mean(squares, count)};
 }
 
-double HorizonPilot::link_error(const WalkOptions& options, const LightMips& light, const TexelVector& x) {
-  const std::vector<LinkAzimuth> azimuths = make_link_azimuths(surface_, options);
-  const int rings = ring_count(surface_, options);
-  std::vector<float> seen(frames_.size() * WalkTile::kTexels);
-  Progress progress("trial", static_cast<std::int64_t>(frames_.size()), trial_watch_);
-  parallel_for(
-      static_cast<std::int64_t>(frames_.size()),
-      [&](std::int64_t i) {
-        const TileFrame& frame = frames_[static_cast<std::size_t>(i)];
-        const BlockSet blocks = all_blocks(frame);
-        const auto tile = std::make_unique<WalkTile>();
-        std::vector<std::uint8_t> stream;
-        tile->load(surface_, mips_, options, rings, frame);
-        walk_links(*tile, azimuths, blocks, stream);
-        replay_links(frame, azimuths, blocks, stream.data(), light, seen.data() + i * WalkTile::kTexels);
-      },
-      &progress);
-  const auto value_of = [&x](std::size_t i) { return x[i]; };
+double HorizonPilot::gather_sampling_error(const MapGather& gather, const FieldPyramid& pyramid,
+                                           const Map& x) {
+  std::vector<float> seen(frames_.size() * ReceiverTile::kTexels);
+  const GatherTurn turn{.azimuths = kExactAzimuths};
+  gather.run_on(frames_, turn, {&pyramid},
+                [&](std::size_t strip, const ReceiverTile&, const GatherSums& sums) {
+                  float* out = seen.data() + strip * ReceiverTile::kTexels;
+                  for (std::size_t at = 0; at < ReceiverTile::kTexels; ++at)
+                    out[at] = sums.weight[at] > 0 ? sums.weighted[0][at] / sums.weight[at] : 0;
+                });
   std::vector<double> errors;
   for (const ExactReceiver& receiver : exact_) {
     const std::size_t at = receiver.frame * WalkTile::kTexels +
                            static_cast<std::size_t>(receiver.row * TileFrame::kSide + receiver.column);
     const double surface_share = 1 - receiver.view.sky_view_factor;
-    errors.push_back(surface_share * double{seen[at]} - gather_exactly(receiver.view, surface_, value_of));
+    errors.push_back(surface_share * double{seen[at]} -
+                     gather_exactly(receiver.view, surface_, finite_values(x)));
   }
   return root_mean_square(errors);
 }
 
-std::vector<double> HorizonPilot::gather_errors(const TexelVector& x, const TexelVector& gathered,
-                                                const TexelVector& sky) const {
-  const auto value_of = [&x](std::size_t i) { return x[i]; };
+double HorizonPilot::gather_azimuth_error(int azimuths, const Map& x) const {
+  assert(azimuths > 0 && kExactAzimuths % azimuths == 0);
+  const auto value_of = finite_values(x);
   std::vector<double> errors;
   for (const ExactReceiver& receiver : exact_) {
-    const TileFrame& frame = frames_[receiver.frame];
-    const std::size_t texel =
-        surface_.map.height.index(frame.first_row + receiver.row, frame.first_column + receiver.column);
-    const double exact_share = 1 - receiver.view.sky_view_factor;
-    const double share = 1 - sky[texel];
-    const double seen = share > 0 ? gathered[texel] / share : 0;
-    errors.push_back(exact_share * seen - gather_exactly(receiver.view, surface_, value_of));
+    const SliceView& view = receiver.view;
+    std::vector<double> weight(kExactAzimuths);
+    std::vector<double> weighted(kExactAzimuths);
+    std::size_t link = 0;
+    for (std::size_t k = 0; k < kExactAzimuths; ++k) {
+      for (; link < view.links_end[k]; ++link) {
+        weight[k] += view.links[link].weight;
+        weighted[k] += view.links[link].weight * value_seen(view.links[link], surface_, value_of);
+      }
+    }
+    const double share = 1 - view.sky_view_factor;
+    const int walked = halved_azimuths(azimuths, azimuth_halvings(share));
+    const auto step = static_cast<std::size_t>(kExactAzimuths / walked);
+    const auto seen_by = [&](std::size_t first, std::size_t by) {
+      double sum = 0;
+      double all = 0;
+      for (std::size_t k = first; k < kExactAzimuths; k += by) {
+        sum += weighted[k];
+        all += weight[k];
+      }
+      return all > 0 ? sum / all : 0;
+    };
+    const double many = seen_by(0, 1);
+    double squares = 0;
+    for (std::size_t first = 0; first < step; ++first) {
+      const double error = share * (seen_by(first, step) - many);
+      squares += error * error;
+    }
+    errors.push_back(std::sqrt(squares / static_cast<double>(step)));
   }
-  return errors;
-}
-
-HorizonPilot::Harmless HorizonPilot::find_harmless(const std::vector<double>& errors, const TexelVector& sky,
-                                                   double error) const {
-  std::vector<std::pair<double, double>> squares;  // by the surface_share of its block
-  for (std::size_t i = 0; i < exact_.size(); ++i) {
-    const TileFrame& frame = frames_[exact_[i].frame];
-    const double share =
-        surface_share(surface_, sky, frame.first_row + exact_[i].row, frame.first_column + exact_[i].column);
-    squares.emplace_back(share, errors[i] * errors[i]);
-  }
-  std::sort(squares.begin(), squares.end());
-  const double most = error * error * static_cast<double>(exact_.size());
-  double sum = 0;
-  for (const auto& [share, square] : squares) {
-    if (sum + square > most) return {share, root_mean(sum, exact_.size())};
-    sum += square;
-  }
-  return {std::numeric_limits<double>::infinity(), root_mean(sum, exact_.size())};
+  return root_mean_square(errors);
 }
 
 }  // namespace heightlight

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "heightlight/transport.h"
-#include "transport/light_mips.h"
+#include "transport/map_gather.h"
 #include "visibility/exact_walk.h"
 #include "visibility/height_mips.h"
 #include "visibility/walk_tile.h"
@@ -58,22 +58,13 @@ class HorizonPilot {
   };
   Sparse find_sparse(const WalkOptions& options, double error);
 
-  /// RMSE of (1 − A) × the mean of `x` seen, against exact walks, where only what is seen is in error.
-  /// `light` is filled with x.
-  double link_error(const WalkOptions& options, const LightMips& light, const TexelVector& x);
+  /// RMSE of (1 − A) × the mean of x seen, against exact walks along the same azimuths: what sampling costs a
+  /// gather. `pyramid` holds x.
+  double gather_sampling_error(const MapGather& gather, const FieldPyramid& pyramid, const Map& x);
 
-  /// Errors of a gather of `x`, made with the sky's shares given, at the receivers that are walked exactly,
-  /// where only what is seen is in error.
-  std::vector<double> gather_errors(const TexelVector& x, const TexelVector& gathered,
-                                    const TexelVector& sky) const;
-
-  /// Where blocks may have such errors: below a surface_share, infinite where all may; and the RMSE over all
-  /// receivers that this leaves, no more than `error`, were the others right.
-  struct Harmless {
-    double below;
-    double left;
-  };
-  Harmless find_harmless(const std::vector<double>& errors, const TexelVector& sky, double error) const;
+  /// The same along a few of the azimuths, a divisor of kExactAzimuths in all, against all of them: what few
+  /// azimuths cost a gather, where they are halved as azimuth_halvings says.
+  double gather_azimuth_error(int azimuths, const Map& x) const;
 
   const Surface& surface() const { return surface_; }
 

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "transport/horizon_pilot.h"
-#include "transport/seen_light.h"
+#include "transport/map_gather.h"
 
 namespace heightlight {
 
@@ -20,10 +20,14 @@ double sky_cost(const SkyPlan& plan);
 /// How the sky is to be walked.
 SkyPlan plan_sky(HorizonPilot& pilot, const HorizonGoal& goal);
 
-/// The links' part, once the direct light is known, and the links themselves. Lattices of receivers are tried
-/// first, the coarsest at first: they cost little. Where their error is harmless, for all receivers or for
-/// those that see little of the surface, they are kept; the others get links of their own.
-std::unique_ptr<SeenLight> plan_links(HorizonPilot& pilot, const HeightMips& mips, const TexelVector& direct,
-                                      const HorizonGoal& goal, const LinkLimits& limits, HorizonPlan& plan);
+/// How gathers are to be walked, and what walks them.
+struct PlannedGather {
+  GatherPlan plan = {};
+  std::unique_ptr<MapGather> gather = {};
+};
+
+/// Once the sky is known: `sky` is A per texel, found as `sky_plan` has it.
+PlannedGather plan_gather(HorizonPilot& pilot, const HeightMips& mips, const Map& sky,
+                          const HorizonGoal& goal, const SkyPlan& sky_plan);
 
 }  // namespace heightlight

@@ -31,11 +31,13 @@ double surface_share(const ReceiverTile& tile, const Map& sky, int first_row, in
   return present > 0 ? std::sqrt(squares / present) : 0;
 }
 
-void share_azimuths(const ReceiverTile& tile, const Map& sky, int azimuths, GatherTask& task) {
+void share_azimuths(const ReceiverTile& tile, const GatherTurn& turn, GatherTask& task) {
+  task.azimuths.fill(static_cast<std::uint16_t>(turn.azimuths));
+  if (!turn.sky) return;
   for (int i = 0; i < tile.rows; i += kGatherBlockRows) {
     for (int j = 0; j < tile.columns; j += kGatherBlock) {
-      const double share = surface_share(tile, sky, i, j);
-      const int count = share > 0 ? std::max(1, azimuths >> azimuth_halvings(share)) : 0;
+      const double share = surface_share(tile, *turn.sky, i, j);
+      const int count = share > 0 ? halved_azimuths(turn.azimuths, azimuth_halvings(share)) : 0;
       task.azimuths[gather_block(i, j)] = static_cast<std::uint16_t>(count);
     }
   }
@@ -44,38 +46,43 @@ void share_azimuths(const ReceiverTile& tile, const Map& sky, int azimuths, Gath
 }  // namespace
 
 int azimuth_halvings(double surface_share) {
+  static_assert(kMostHalvings == 3);
   return surface_share < 0.04 ? 3 : surface_share < 0.12 ? 2 : surface_share < 0.4 ? 1 : 0;
 }
 
-MapGather::MapGather(const Surface& surface, const HeightMips& mips, const Map& sky,
-                     const WalkOptions& options)
-    : surface_(surface), sky_(sky), options_(options), scene_(build_horizon_scene(surface, mips, options)) {
-  assert(sky.width == surface.width() && sky.height == surface.height());
-}
+MapGather::MapGather(const Surface& surface, const HeightMips& mips, const WalkOptions& options)
+    : surface_(surface), options_(options), scene_(build_horizon_scene(surface, mips, options)) {}
 
 FieldPyramid MapGather::make_pyramid() const {
-  return {surface_, ring_count(surface_, options_), walk_reach(options_)};
+  // Up to one block, so that holes find a value.
+  const int to_one = levels_to_one(surface_.width(), surface_.height());
+  return {surface_, std::max(ring_count(surface_, options_), to_one), walk_reach(options_)};
 }
 
 void MapGather::run(const GatherTurn& turn, const std::vector<const FieldPyramid*>& fields,
-                    const std::function<void(const ReceiverTile&, const GatherSums&)>& visit) const {
+                    const std::function<void(const ReceiverTile&, const GatherSums&)>& visit,
+                    const Watch& watch) const {
   const TileGrid grid(surface_.width(), surface_.height());
   std::vector<TileFrame> frames;
   for (std::int64_t i = 0; i < grid.count(); ++i) frames.push_back(grid.frame(i));
-  run_on(frames, turn, fields,
-         [&](std::size_t, const ReceiverTile& tile, const GatherSums& sums) { visit(tile, sums); });
+  run_on(
+      frames, turn, fields,
+      [&](std::size_t, const ReceiverTile& tile, const GatherSums& sums) { visit(tile, sums); }, watch);
 }
 
-void MapGather::run_on(
-    const std::vector<TileFrame>& frames, const GatherTurn& turn,
-    const std::vector<const FieldPyramid*>& fields,
-    const std::function<void(std::size_t, const ReceiverTile&, const GatherSums&)>& visit) const {
+void MapGather::run_on(const std::vector<TileFrame>& frames, const GatherTurn& turn,
+                       const std::vector<const FieldPyramid*>& fields,
+                       const std::function<void(std::size_t, const ReceiverTile&, const GatherSums&)>& visit,
+                       const Watch& watch) const {
   assert(!fields.empty() && fields.size() <= kMostFields);
   WalkOptions options = options_;
   options.azimuths = turn.azimuths;
   const GatherWalk walk = make_gather_walk(surface_, options, turn.turn, *fields[0]);
   std::vector<std::unique_ptr<Workspace>> workspaces(static_cast<std::size_t>(thread_count()));
-  parallel_for(static_cast<std::int64_t>(frames.size()), [&](std::int64_t i) {
+  const auto count = static_cast<std::int64_t>(frames.size());
+  const Watch silent{.tell = {}, .stopped = watch.stopped};
+  Progress progress("gather", count, silent);
+  const auto walk_frame = [&](std::int64_t i) {
     std::unique_ptr<Workspace>& work = workspaces[static_cast<std::size_t>(omp_get_thread_num())];
     if (!work) work = std::make_unique<Workspace>();
     work->tile.load_receivers(surface_, 0, frames[static_cast<std::size_t>(i)]);
@@ -83,19 +90,17 @@ void MapGather::run_on(
     task.field_count = fields.size();
     std::copy(fields.begin(), fields.end(), task.fields.begin());
     task.highest = surface_.highest;
-    share_azimuths(work->tile, sky_, turn.azimuths, task);
+    share_azimuths(work->tile, turn, task);
     walk_gather(task, work->sums);
     visit(static_cast<std::size_t>(i), work->tile, work->sums);
-  });
+  };
+  parallel_for(count, walk_frame, &progress);
 }
 
-std::uint64_t MapGather::bytes(const Surface& surface, const WalkOptions& options) {
-  return horizon_scene_bytes(surface, options);
-}
-
-std::uint64_t MapGather::pyramid_bytes(const Surface& surface, const WalkOptions& options) {
-  return field_pyramid_bytes(surface.width(), surface.height(), ring_count(surface, options),
-                             walk_reach(options));
+std::uint64_t gather_bytes(int width, int height, std::uint64_t fields) {
+  const int reach = walk_reach({.fineness = 24});
+  const std::uint64_t pyramid = field_pyramid_bytes(width, height, levels_to_one(width, height), reach);
+  return (1 + fields) * pyramid + field_pyramid_bytes(width, height, 0, reach);
 }
 
 }  // namespace heightlight

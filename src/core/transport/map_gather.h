@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "heightlight/watch.h"
 #include "transport/gather_walk.h"
 
 namespace heightlight {
@@ -12,44 +13,51 @@ namespace heightlight {
 struct GatherTurn {
   int azimuths = 4;
   double turn = 0.25;
+  const Map* sky = nullptr;  ///< A: receivers that see little of the surface walk fewer (azimuth_halvings),
+                             ///< and those that see none do not walk; null: all walk all
 };
 
 /// Gathers over a whole map. What does not change from one to the next is made once.
 class MapGather {
  public:
-  /// `sky`: A per texel, which says who has to look closely; both must outlive it. Azimuths of `options` are
-  /// not used.
-  MapGather(const Surface& surface, const HeightMips& mips, const Map& sky, const WalkOptions& options);
+  /// The surface must outlive it. Azimuths of `options` are not used.
+  MapGather(const Surface& surface, const HeightMips& mips, const WalkOptions& options);
 
   /// A pyramid that its gathers can read.
   FieldPyramid make_pyramid() const;
 
   /// Gathers up to kMostFields fields, and calls visit(tile, sums) for every tile of receivers, in any order
-  /// and on all threads.
+  /// and on all threads. The watch is asked whether to go on.
   void run(const GatherTurn& turn, const std::vector<const FieldPyramid*>& fields,
-           const std::function<void(const ReceiverTile&, const GatherSums&)>& visit) const;
+           const std::function<void(const ReceiverTile&, const GatherSums&)>& visit,
+           const Watch& watch = {}) const;
 
   /// Likewise, of the tiles or parts of tiles given.
   void run_on(const std::vector<TileFrame>& frames, const GatherTurn& turn,
               const std::vector<const FieldPyramid*>& fields,
-              const std::function<void(std::size_t, const ReceiverTile&, const GatherSums&)>& visit) const;
+              const std::function<void(std::size_t, const ReceiverTile&, const GatherSums&)>& visit,
+              const Watch& watch = {}) const;
 
   const Surface& surface() const { return surface_; }
-
-  /// Bytes that one of a map of that size holds, pyramids of fields apart, and those of a pyramid.
-  static std::uint64_t bytes(const Surface& surface, const WalkOptions& options);
-  static std::uint64_t pyramid_bytes(const Surface& surface, const WalkOptions& options);
+  const WalkOptions& options() const { return options_; }
 
  private:
   const Surface& surface_;
-  const Map& sky_;
   WalkOptions options_;
   HorizonScene scene_;
 };
 
+/// Bytes that a gather of `fields` fields holds on a map of that size, at a fineness of 24: few maps want
+/// more.
+std::uint64_t gather_bytes(int width, int height, std::uint64_t fields);
+
+/// The number of azimuths next to `azimuths` that can be halved as often as pays: up to 4, above that a
+/// multiple of 4.
+constexpr int even_azimuths(int azimuths) { return azimuths <= 2 ? 2 : (azimuths + 3) / 4 * 4; }
+
 /// How often the azimuths are halved for receivers that see so much of the surface, as an RMS of 1 − A. What
-/// K azimuths leave falls somewhat faster than 1/√K and grows with 1 − A: it is least for what all of them cost
-/// together where K goes about as (1 − A)^0.6.
+/// K azimuths leave falls somewhat faster than 1/√K and grows with 1 − A: it is least for what all of them
+/// cost together where K goes about as (1 − A)^0.6.
 int azimuth_halvings(double surface_share);
 
 }  // namespace heightlight

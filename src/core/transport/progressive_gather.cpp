@@ -14,13 +14,10 @@ constexpr int kFewestGathers = 3;
 constexpr int kMostGathers = 64;
 
 /// Share of the error wanted that ending the gathers may take.
-constexpr double kEndShare = 0.5;
+constexpr double kEndingShare = 0.5;
 
 /// The weight in the last gather of the sums of the one before, which saw light that is a little more wrong.
 constexpr float kKeptShare = 0.9F;
-
-/// Where a system is on its way.
-enum class Phase { converging, last_but_one, last };
 
 /// One system on its way.
 struct Field {
@@ -71,9 +68,10 @@ Map start(const LightSystem& system, const Map& sky) {
     const double albedo = system.varying ? (*system.varying)[i] : system.albedo;
     const SkyViewFactor<double> share(double{sky.values[i]});
     const bool missing = std::isnan(sky.values[i]);
-    irradiance.values[i] = missing         ? sky.values[i]
-                           : system.direct ? static_cast<float>((*system.direct)[i])
-                                           : static_cast<float>(bounced_total(share, guess_seen(share), albedo));
+    irradiance.values[i] = missing ? sky.values[i]
+                           : system.direct
+                               ? static_cast<float>((*system.direct)[i])
+                               : static_cast<float>(bounced_total(share, guess_seen(share), albedo));
   });
   return irradiance;
 }
@@ -98,21 +96,25 @@ int plan_gathers(double kappa, double change, double error) {
   return std::clamp(gathers, kFewestGathers, kMostGathers);
 }
 
-Phase phase_of(const Field& field, int k) {
-  return k + 1 >= field.gathers ? Phase::last : k + 2 >= field.gathers ? Phase::last_but_one : Phase::converging;
-}
-
 void next_weight(int k, Field& field) {
   const double squared = field.kappa * field.kappa;
-  field.weight = k == 0 || phase_of(field, k) == Phase::last ? 1
-                 : k == 1                                    ? 1 / (1 - squared / 2)
-                                                             : 1 / (1 - squared * field.weight / 4);
+  field.weight = k == 0 || k + 1 == field.gathers ? 1
+                 : k == 1                         ? 1 / (1 - squared / 2)
+                                                  : 1 / (1 - squared * field.weight / 4);
+}
+
+/// Azimuths of a gather when so many are left, itself among them. What early ones leave of noise falls with
+/// all else that is wrong.
+int azimuths_of(int left, int last_azimuths) {
+  const int part = left <= 2 ? 1 : left == 3 ? 2 : 4;
+  return even_azimuths(last_azimuths / part);
 }
 
 /// One gather's step of several fields, and the RMS of what it would change, per field, with a weight of 1.
 class GatherStep {
  public:
-  GatherStep(const MapGather& gather, const Map& sky, float kept) : gather_(gather), sky_(sky), kept_(kept) {}
+  GatherStep(const MapGather& gather, const Map& sky, float kept, const Watch& watch)
+      : gather_(gather), sky_(sky), kept_(kept), watch_(watch) {}
 
   std::vector<double> take(const GatherTurn& turn, const std::vector<Field*>& fields) {
     std::vector<FieldPyramid> pyramids;
@@ -122,12 +124,15 @@ class GatherStep {
     const TileGrid grid(sky_.width, sky_.height);
     const auto tiles = static_cast<std::size_t>(grid.count());
     std::vector<double> squares(tiles * fields.size());
-    gather_.run(turn, read, [&](const ReceiverTile& tile, const GatherSums& sums) {
-      const auto index = static_cast<std::size_t>(tile.first_row / TileFrame::kSide * grid.across +
-                                                  tile.first_column / TileFrame::kSide);
-      for (std::size_t f = 0; f < fields.size(); ++f)
-        squares[f * tiles + index] = update(tile, sums.weight, sums.weighted[f], *fields[f]);
-    });
+    gather_.run(
+        turn, read,
+        [&](const ReceiverTile& tile, const GatherSums& sums) {
+          const auto index = static_cast<std::size_t>(tile.first_row / TileFrame::kSide * grid.across +
+                                                      tile.first_column / TileFrame::kSide);
+          for (std::size_t f = 0; f < fields.size(); ++f)
+            squares[f * tiles + index] = update(tile, sums.weight, sums.weighted[f], *fields[f]);
+        },
+        watch_);
     std::vector<double> changes;
     for (std::size_t f = 0; f < fields.size(); ++f) {
       double sum = 0;
@@ -178,6 +183,7 @@ class GatherStep {
   const MapGather& gather_;
   const Map& sky_;
   float kept_;
+  const Watch& watch_;
 };
 
 TexelVector take_irradiance(const Field& field) {
@@ -201,23 +207,23 @@ ProgressiveSolution gather_progressively(const MapGather& gather, const Map& sky
   for (const LightSystem& system : systems) fields.push_back(begin(system, sky, deep_share));
   ProgressiveSolution solution;
   for (int k = 0; k < kMostGathers; ++k) {
-    std::map<Phase, std::vector<Field*>> by_phase;
+    std::map<int, std::vector<Field*>> by_gathers_left;
     for (Field& field : fields) {
-      if (k < field.gathers) by_phase[phase_of(field, k)].push_back(&field);
+      if (k < field.gathers) by_gathers_left[field.gathers - k].push_back(&field);
     }
-    if (by_phase.empty()) break;
-    for (const auto& [phase, group] : by_phase) {
-      const int azimuths = phase == Phase::converging ? goal.first_azimuths : goal.last_azimuths;
-      GatherStep step(gather, sky, phase == Phase::last ? kKeptShare : 0);
+    if (by_gathers_left.empty()) break;
+    for (const auto& [left, group] : by_gathers_left) {
+      const GatherTurn turn{azimuths_of(left, goal.last_azimuths), std::fmod((k + 1) * kGoldenRatio, 1.0),
+                            &sky};
+      GatherStep step(gather, sky, left == 1 ? kKeptShare : 0, watch);
       for (std::size_t first = 0; first < group.size(); first += kMostFields) {
-        progress.throw_if_stopped();
         const auto begin_of_some = group.begin() + static_cast<std::ptrdiff_t>(first);
         const std::size_t count = std::min(kMostFields, group.size() - first);
         const std::vector<Field*> some(begin_of_some, begin_of_some + static_cast<std::ptrdiff_t>(count));
         for (Field* field : some) next_weight(k, *field);
-        const std::vector<double> changes = step.take({azimuths, std::fmod((k + 1) * kGoldenRatio, 1.0)}, some);
+        const std::vector<double> changes = step.take(turn, some);
         for (std::size_t f = 0; k == 0 && f < count; ++f)
-          some[f]->gathers = plan_gathers(some[f]->kappa, changes[f], kEndShare * goal.error);
+          some[f]->gathers = plan_gathers(some[f]->kappa, changes[f], kEndingShare * goal.error);
       }
     }
     solution.gathers = k + 1;

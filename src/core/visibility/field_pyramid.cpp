@@ -1,6 +1,7 @@
 #include "visibility/field_pyramid.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 
@@ -11,15 +12,13 @@
 namespace heightlight {
 namespace {
 
-int half(int count) { return (count + 1) / 2; }
-
 /// Without values.
 std::vector<FieldPyramid::Level> lay_out(int width, int height, int levels, int reach) {
   std::vector<FieldPyramid::Level> layout;
   for (int l = 0; l <= levels; ++l) {
     layout.push_back({.width = width, .height = height, .margin = reach, .values = {}});
-    width = half(width);
-    height = half(height);
+    width = half_blocks(width);
+    height = half_blocks(height);
   }
   return layout;
 }
@@ -135,6 +134,10 @@ void FieldPyramid::fill_margins(std::size_t l, const float* outside) {
       std::copy_n(top + (margin + from) * level.stride(), level.stride(), top + i * level.stride());
     }
   }
+}
+
+int levels_to_one(int width, int height) {
+  return std::bit_width(static_cast<unsigned>(std::max(width, height)) - 1);
 }
 
 std::uint64_t field_pyramid_bytes(int width, int height, int levels, int reach) {

@@ -8,8 +8,8 @@
 
 namespace heightlight {
 
-/// A field on the surface, over square blocks of 2^l × 2^l samples, as walks read it. Every level has a margin
-/// on all sides that holds what lies beyond the map's edges, so that reading needs no care.
+/// A field on the surface, over square blocks of 2^l × 2^l samples, as walks read it. Every level has a
+/// margin on all sides that holds what lies beyond the map's edges, so that reading needs no care.
 class FieldPyramid {
  public:
   struct Level {
@@ -28,8 +28,8 @@ class FieldPyramid {
   FieldPyramid(const Surface& surface, int levels, int reach);
 
   /// From values per sample, those of missing ones NaN: each block is the mean of its parts, and missing
-  /// samples take the value of the block around them. Beyond the edges of a map that does not tile nothing is
-  /// ever seen, and the outermost value stands.
+  /// samples take the value of the block around them, 0 where no level has any. Beyond the edges of a map
+  /// that does not tile nothing is ever seen, and the outermost value stands.
   void fill(const Map& values);
 
   /// Level l alone, from a value per block, kNoHeight beyond the edges of a map that does not tile.
@@ -45,6 +45,9 @@ class FieldPyramid {
   const Surface& surface_;
   std::vector<Level> levels_;
 };
+
+/// Levels above the samples up to that of one block: as many as holes of any size want.
+int levels_to_one(int width, int height);
 
 /// Bytes that a pyramid of such a map takes.
 std::uint64_t field_pyramid_bytes(int width, int height, int levels, int reach);

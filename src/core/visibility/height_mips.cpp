@@ -4,12 +4,11 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "surface/blocks.h"
 #include "surface/occluders.h"
 
 namespace heightlight {
 namespace {
-
-int half(int count) { return (count + 1) / 2; }
 
 /// Number of samples present in each block of level 1; from level 2 on, blocks weigh alike, except those that
 /// hold none.
@@ -27,8 +26,8 @@ struct Children {
 };
 
 HeightMips::Level coarsen(const Image<float>& mean, const Image<float>& highest) {
-  HeightMips::Level level{Image<float>(half(mean.width), half(mean.height)),
-                          Image<float>(half(mean.width), half(mean.height))};
+  HeightMips::Level level{Image<float>(half_blocks(mean.width), half_blocks(mean.height)),
+                          Image<float>(half_blocks(mean.width), half_blocks(mean.height))};
   parallel_for(level.mean.height, [&](std::int64_t line) {
     const int row = static_cast<int>(line);
     for (int column = 0; column < level.mean.width; ++column) {
@@ -51,8 +50,8 @@ HeightMips::Level coarsen(const Image<float>& mean, const Image<float>& highest)
 std::uint64_t height_mips_bytes(int width, int height) {
   std::uint64_t samples = 0;
   while (width > 1 || height > 1) {
-    width = half(width);
-    height = half(height);
+    width = half_blocks(width);
+    height = half_blocks(height);
     samples += static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
   }
   return samples * 2 * sizeof(float);

@@ -64,10 +64,4 @@ HorizonScene build_horizon_scene(const Surface& surface, const HeightMips& mips,
   return scene;
 }
 
-std::uint64_t horizon_scene_bytes(const Surface& surface, const WalkOptions& options) {
-  const int reach = walk_reach(options);
-  return field_pyramid_bytes(surface.width(), surface.height(), ring_count(surface, options), reach) +
-         field_pyramid_bytes(surface.width(), surface.height(), 0, reach);
-}
-
 }  // namespace heightlight

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstdint>
-
 #include "visibility/field_pyramid.h"
 #include "visibility/height_mips.h"
 #include "visibility/walk_table.h"
@@ -12,15 +10,12 @@ namespace heightlight {
 /// where they lie. Built once for all gathers.
 struct HorizonScene {
   FieldPyramid heights;  ///< level 0: the samples; level l: blocks as rings see them, with their peak share
-  FieldPyramid lifted;   ///< level 0 alone: each sample, and WalkTile::kLift of what the highest of it and its
-                         ///< eight neighbours has above it
+  FieldPyramid lifted;  ///< level 0 alone: each sample, and WalkTile::kLift of what the highest of it and its
+                        ///< eight neighbours has above it
 };
 
 /// `options`: their fineness says how far walks look, their peak share what rings see.
 HorizonScene build_horizon_scene(const Surface& surface, const HeightMips& mips, const WalkOptions& options);
-
-/// Bytes that it takes.
-std::uint64_t horizon_scene_bytes(const Surface& surface, const WalkOptions& options);
 
 /// Texels or blocks beyond a map's edges that walks read, whole vectors included.
 int walk_reach(const WalkOptions& options);

@@ -80,8 +80,8 @@ struct ReceiverTile : TileFrame {
   void load_receivers(const Surface& surface, float reference, const TileFrame& frame);
 };
 
-/// Receivers with the heights around them copied from the map: borders, holes and wrapping are dealt with here,
-/// so that walks need not know of them.
+/// Receivers with the heights around them copied from the map: borders, holes and wrapping are dealt with
+/// here, so that walks need not know of them.
 struct WalkTile : ReceiverTile {
   static constexpr int kGroup = 4;
   static constexpr int kWideGroup = 8;

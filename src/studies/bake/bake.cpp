@@ -181,6 +181,8 @@ std::vector<std::string> bake_material(LoadedHeightmap loaded,
   SidecarFacts facts{.source = inputs[0],
                      .facts = loaded.facts,
                      .warnings = find_warnings(loaded.facts, surface.map, options)};
+  if (std::string missed = missed_error(material.results.evidence); !missed.empty())
+    facts.warnings.push_back(std::move(missed));
   std::vector<std::filesystem::path> paths;
   for (std::size_t i = 0; i < textures.size(); ++i) {
     facts.files.push_back(files[i]);

@@ -68,7 +68,7 @@ BounceCurves simulate_curves(Heightmap map, const ReliefStudy& study, const Watc
 const HorizonPlan& study_plan() {
   static const HorizonPlan kPlan{
       .sky = {.walk = {.azimuths = 48, .fineness = 16, .peak_share = 0.3F}},
-      .links = {.walk = {.azimuths = 12, .fineness = 16, .peak_share = 0.3F}},
+      .gather = {.walk = {.azimuths = 8, .fineness = 16, .peak_share = 0.3F}},
   };
   return kPlan;
 }

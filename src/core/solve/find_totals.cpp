@@ -1,0 +1,127 @@
+#include <algorithm>
+
+#include "base/stopwatch.h"
+#include "heightlight/forms.h"
+#include "solve/solver.h"
+
+namespace heightlight {
+namespace {
+
+/// More than this share of the error wanted is a miss (missed_error), and by this share of it what is missed
+/// is planned for once more. The share is the same for all: what becomes of a total must not hang on others.
+constexpr double kMissedFrom = 1.1;
+constexpr double kErrorAgain = 0.5;
+
+/// One system per channel of the albedos asked for, in their order, and one at kSeenAlbedo where `seen` says
+/// so.
+std::vector<LightSystem> list_systems(const Wanted& wanted, bool seen) {
+  const TexelVector* direct = wanted.direct.empty() ? nullptr : &wanted.direct;
+  std::vector<LightSystem> systems;
+  for (const Albedo& albedo : wanted.totals) {
+    for (const double constant : albedo.constant) systems.push_back({.direct = direct, .albedo = constant});
+    for (const TexelVector& varying : albedo.varying)
+      systems.push_back({.direct = direct, .varying = &varying});
+  }
+  if (seen) systems.push_back({.albedo = kSeenAlbedo});
+  return systems;
+}
+
+/// By exact walks, all of them from the same receivers: of α and A too.
+std::vector<HorizonCheck> check_totals(const Task& task, const Transport& transport,
+                                       const std::vector<LightSystem>& systems, const Totals& solved) {
+  std::vector<CheckedTotal> totals;
+  for (std::size_t i = 0; i < systems.size(); ++i) {
+    totals.push_back({.total = solved.irradiance[i],
+                      .albedo = systems[i].albedo,
+                      .varying = systems[i].varying,
+                      .direct = systems[i].direct});
+  }
+  return check_by_exact_walks(task.surface, transport.direct, totals, task.request.accuracy.seed,
+                              task.request.watch, &transport.ambient_occlusion);
+}
+
+/// Where the check finds more than the error wanted, totals are found once more, for a smaller one.
+void refine_totals(const Task& task, const std::vector<LightSystem>& systems, Totals& solved,
+                   std::vector<HorizonCheck>& checks) {
+  const double most = kMissedFrom * task.request.accuracy.error;
+  std::vector<std::size_t> missed;
+  std::vector<LightSystem> again;
+  for (std::size_t i = 0; i < systems.size(); ++i) {
+    if (checks[i].total_rmse <= most) continue;
+    missed.push_back(i);
+    again.push_back(systems[i]);
+  }
+  if (missed.empty()) return;
+  const PlannedTransport finer = find_operator(task, kErrorAgain * task.request.accuracy.error, {});
+  Totals found = finer.transport->solve(again, task.request.watch);
+  const std::vector<HorizonCheck> found_checks = check_totals(task, *finer.transport, again, found);
+  for (std::size_t k = 0; k < missed.size(); ++k) {
+    solved.irradiance[missed[k]] = std::move(found.irradiance[k]);
+    checks[missed[k]].total_rmse = found_checks[k].total_rmse;
+    checks[missed[k]].total_standard_error = found_checks[k].total_standard_error;
+  }
+  solved.gathers = std::max(solved.gathers, found.gathers);
+}
+
+/// The channel of each albedo that errs most stands for it.
+void keep_worst_channels(const Wanted& wanted, const std::vector<HorizonCheck>& checks, Evidence& evidence) {
+  auto next = checks.begin();
+  for (const Albedo& albedo : wanted.totals) {
+    const auto end = next + static_cast<std::ptrdiff_t>(albedo.channels());
+    evidence.total_checks.push_back(*std::max_element(
+        next, end, [](const HorizonCheck& a, const HorizonCheck& b) { return a.total_rmse < b.total_rmse; }));
+    next = end;
+  }
+}
+
+/// Of all that the request wants; the last of `solved` may be at kSeenAlbedo, which is nobody's to judge.
+void check_and_refine(const Task& task, const Transport& transport, std::vector<LightSystem> systems,
+                      Totals& solved, Evidence& evidence) {
+  const Request& request = task.request;
+  std::size_t wanted = 0;
+  for (const Albedo& albedo : request.wanted.totals) wanted += albedo.channels();
+  systems.resize(wanted);
+  std::vector<HorizonCheck> checks = check_totals(task, transport, systems, solved);
+  if (checks[0].receivers == 0) return;
+  const bool planned = request.accuracy.visibility == Visibility::horizon_walks && !request.accuracy.plan;
+  const std::vector<HorizonCheck> first = checks;
+  if (planned) refine_totals(task, systems, solved, checks);
+  for (std::size_t i = 0; i < wanted; ++i)
+    evidence.refined = evidence.refined || checks[i].total_rmse != first[i].total_rmse;
+  evidence.sky_rmse = checks[0].sky_rmse;
+  keep_worst_channels(request.wanted, checks, evidence);
+}
+
+}  // namespace
+
+void note_solver(double residual, int iterations, Evidence& evidence) {
+  if (!evidence.energy) return;
+  EnergyCheck& energy = *evidence.energy;
+  energy.solver_residual = std::max(energy.solver_residual, residual);
+  energy.solver_iterations = std::max(energy.solver_iterations, iterations);
+}
+
+TexelVector find_totals(const Task& task, const Transport& transport, Results& results) {
+  const Request& request = task.request;
+  const Wanted& wanted = request.wanted;
+  Evidence& evidence = results.evidence;
+  const bool seen = wanted.seen || wanted.bounces > 0;
+  const std::vector<LightSystem> systems = list_systems(wanted, seen);
+  Stopwatch watch;
+  Totals solved = transport.solve(systems, request.watch);
+  note_solver(solved.residual, solved.iterations, evidence);
+  evidence.seconds.bounces += watch.lap();
+  const bool checks =
+      !wanted.totals.empty() && request.checks.totals && request.accuracy.visibility != Visibility::rays;
+  if (checks) check_and_refine(task, transport, systems, solved, evidence);
+  evidence.seconds.check += watch.lap();
+  evidence.gathers = solved.gathers;
+  auto next = solved.irradiance.begin();
+  for (const Albedo& albedo : wanted.totals) {
+    std::vector<TexelVector>& channels = results.totals.emplace_back();
+    for (std::size_t c = 0; c < albedo.channels(); ++c) channels.push_back(std::move(*next++));
+  }
+  return seen ? std::move(*next) : TexelVector{};
+}
+
+}  // namespace heightlight

@@ -1,0 +1,24 @@
+#include <algorithm>
+#include <string>
+
+#include "base/digits.h"
+#include "heightlight/evidence.h"
+
+namespace heightlight {
+
+std::string missed_error(const Evidence& evidence) {
+  constexpr double kMissed = 1.1;
+  const double most = kMissed * evidence.error_wanted;
+  if (!(most > 0)) return {};
+  double total = 0;
+  for (const HorizonCheck& check : evidence.total_checks) total = std::max(total, check.total_rmse);
+  std::string found;
+  if (evidence.sky_rmse && *evidence.sky_rmse > most)
+    found = in_digits(*evidence.sky_rmse, 2) + " of the sky view factor";
+  if (total > most) found += (found.empty() ? "" : ", ") + in_digits(total, 2) + " of the total";
+  if (found.empty()) return {};
+  return "the error wanted, " + in_digits(evidence.error_wanted, 2) +
+         ", is missed: exact walks find an RMSE of " + found;
+}
+
+}  // namespace heightlight
