@@ -109,7 +109,7 @@ TEST_CASE("totals by few gathers are right where bounces die out slowly", "[stab
 }
 
 TEST_CASE("a hundred gathers of ones: what all receivers see of ones stays one", "[stability][slow]") {
-  constexpr int kSize = 256;
+  constexpr int kSize = 128;
   constexpr int kBounces = 100;
   const Surface surface = build_surface(make_synth_map("brick", kSize, Boundary::tile, 0.2));
   const SteadyWalks transport(
