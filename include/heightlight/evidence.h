@@ -67,7 +67,7 @@ struct Evidence {
   int rays = 0;                     ///< 0 of walks and slices
   std::uint64_t seed = 1;           ///< of every random choice
   std::optional<HorizonPlan> plan;  ///< of horizon walks; its gathers mean nothing where nothing bounces
-  bool has_links = false;           ///< an operator was built, stored or to be walked again
+  bool has_links = false;           ///< an operator was built, of stored links or gathers
   std::uint64_t links = 0;          ///< stored
   std::uint64_t link_bytes = 0;
   int bounces = 0;  ///< gathered one after the other

@@ -131,8 +131,8 @@ struct HorizonPlan {
 };
 
 /// The operator by horizon walks as planned: nothing is stored, each gather walks. `surface` must outlive it.
-/// `error` is what solve() may leave by ending, RMSE. Throws UsageError for a number of azimuths outside its
-/// range.
+/// `error` > 0 is the RMSE that solve() aims at, in units of the brightest direct light. Throws UsageError
+/// for a number of azimuths outside its range.
 std::unique_ptr<Transport> build_horizon_transport(const Surface& surface, const HorizonPlan& plan,
                                                    double error = 0.002, const Watch& watch = {});
 
@@ -186,8 +186,9 @@ std::vector<HorizonCheck> check_by_exact_walks(const Surface& surface, const Tex
                                                const Watch& watch = {},
                                                const Map* ambient_occlusion = nullptr);
 
-/// The solution x of x = source + F (ρ x), to a residual of 1e-8 of the source's norm, by BiCGSTAB; `guess`
-/// is where it starts. `albedo` is ρ per texel, in [0, 1].
+/// The solution x of x = source + F (ρ x), to a residual of 1e-8 of the source's norm, by BiCGSTAB, of stored
+/// links (gathers of walks are too coarse for it); `guess` is where it starts. `albedo` is ρ per texel, in
+/// [0, 1].
 struct Equilibrium {
   TexelVector irradiance;
   int iterations = 0;

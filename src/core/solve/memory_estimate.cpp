@@ -61,8 +61,8 @@ std::uint64_t estimate_memory(int width, int height, const Request& request) {
     per_texel += kVector + light_bytes(request);  // the direct light
     if (request.accuracy.visibility == Visibility::horizon_walks) {
       // The heights that gathers look at, and the fields that one reads at once.
-      const std::uint64_t fields =
-          std::min<std::uint64_t>(kMostFields, std::max<std::uint64_t>(1, channels_of(wanted.totals)));
+      const std::uint64_t fields = std::min<std::uint64_t>(
+          kMostFields, channels_of(wanted.totals) + (wanted.seen || wanted.bounces > 0 ? 1 : 0));
       pyramids += gather_bytes(width, height, fields);
     }
     if (wanted.reach && (wanted.sky || wanted.moments.first)) per_texel += horizon_sky_bytes({});

@@ -34,7 +34,7 @@ std::uint64_t memory_for_links(const Surface& surface, const Request& request, E
   evidence.estimated_bytes = needed;
   if (needed < request.limits.memory) return request.limits.memory - needed;
   throw MemoryError(std::to_string(surface.width()) + " × " + std::to_string(surface.height()) +
-                    " texels need " + format_byte_size(needed) + " beside their links, more than the " +
+                    " texels need " + format_byte_size(needed) + " beside any links, more than the " +
                     format_byte_size(request.limits.memory) + " of memory allowed");
 }
 

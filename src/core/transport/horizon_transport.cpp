@@ -108,6 +108,7 @@ class HorizonTransport : public Transport {
 
 std::unique_ptr<Transport> build_horizon_transport(const Surface& surface, const HorizonPlan& plan,
                                                    double error, const Watch& watch) {
+  if (!(error > 0)) throw UsageError("error", std::to_string(error), "must be positive");
   check_azimuths(plan.sky.walk.azimuths);
   check_azimuths(plan.gather.walk.azimuths);
   const HeightMips mips = build_height_mips(surface);

@@ -1,6 +1,7 @@
 #include "transport/progressive_gather.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <map>
 
@@ -30,7 +31,11 @@ struct Field {
   Map weighted = {};  ///< sums so far, of what was seen, and their weights
   Map weights = {};
 
+  double unit = 1;  ///< of its light: the power of two next to the brightest of one's own
+
   double albedo(std::size_t i) const { return system.varying ? (*system.varying)[i] : system.albedo; }
+  /// E₀/π in units, of a receiver with the sky's share A.
+  double direct(std::size_t i, double sky) const { return system.direct ? (*system.direct)[i] / unit : sky; }
 };
 
 /// Mean over receivers of 1 − A, weighted by its fourth power and area.
@@ -61,8 +66,17 @@ void for_texels(const Map& map, Body&& body) {
   });
 }
 
-/// Under the sky the closed form G with n guessed from A; light of one's own before it bounces.
-Map start(const LightSystem& system, const Map& sky) {
+/// The power of two above the brightest direct light; 1 under the sky.
+double unit_of(const LightSystem& system) {
+  if (!system.direct) return 1;
+  const double brightest = *std::max_element(system.direct->begin(), system.direct->end());
+  int exponent = 0;
+  std::frexp(brightest, &exponent);
+  return brightest > 0 ? std::ldexp(1.0, std::clamp(exponent, -1000, 1000)) : 1;
+}
+
+/// Under the sky the closed form G with n guessed from A; light of one's own, in units, before it bounces.
+Map start(const LightSystem& system, const Map& sky, double unit) {
   Map irradiance(sky.width, sky.height);
   for_texels(sky, [&](std::size_t i) {
     const double albedo = system.varying ? (*system.varying)[i] : system.albedo;
@@ -70,7 +84,7 @@ Map start(const LightSystem& system, const Map& sky) {
     const bool missing = std::isnan(sky.values[i]);
     irradiance.values[i] = missing ? sky.values[i]
                            : system.direct
-                               ? static_cast<float>((*system.direct)[i])
+                               ? static_cast<float>((*system.direct)[i] / unit)
                                : static_cast<float>(bounced_total(share, guess_seen(share), albedo));
   });
   return irradiance;
@@ -79,7 +93,8 @@ Map start(const LightSystem& system, const Map& sky) {
 Field begin(const LightSystem& system, const Map& sky, double deep_share) {
   Field field{.system = system};
   field.kappa = highest_albedo(system) * deep_share;
-  field.irradiance = start(system, sky);
+  field.unit = unit_of(system);
+  field.irradiance = start(system, sky, field.unit);
   field.before = field.irradiance;
   field.weighted = Map(sky.width, sky.height);
   field.weights = Map(sky.width, sky.height);
@@ -114,7 +129,11 @@ int azimuths_of(int left, int last_azimuths) {
 class GatherStep {
  public:
   GatherStep(const MapGather& gather, const Map& sky, float kept, const Watch& watch)
-      : gather_(gather), sky_(sky), kept_(kept), watch_(watch) {}
+      : gather_(gather), sky_(sky), kept_(kept), watch_(watch) {
+    const auto missing =
+        std::count_if(sky.values.begin(), sky.values.end(), [](float a) { return std::isnan(a); });
+    receivers_ = std::max<std::size_t>(1, sky.size() - static_cast<std::size_t>(missing));
+  }
 
   std::vector<double> take(const GatherTurn& turn, const std::vector<Field*>& fields) {
     std::vector<FieldPyramid> pyramids;
@@ -137,7 +156,7 @@ class GatherStep {
     for (std::size_t f = 0; f < fields.size(); ++f) {
       double sum = 0;
       for (std::size_t i = 0; i < tiles; ++i) sum += squares[f * tiles + i];
-      changes.push_back(std::sqrt(sum / static_cast<double>(sky_.size())));
+      changes.push_back(std::sqrt(sum / static_cast<double>(receivers_)));
     }
     return changes;
   }
@@ -170,7 +189,7 @@ class GatherStep {
         // Who sees nothing along all azimuths so far, but has A < 1, sees its like.
         const double seen = all > 0 ? double{sum} / double{all} : field.albedo(i) * double{now};
         const double share = double{sky_.values[i]};
-        const double next = (field.system.direct ? (*field.system.direct)[i] : share) + (1 - share) * seen;
+        const double next = field.direct(i, share) + (1 - share) * seen;
         squares += (next - double{now}) * (next - double{now});
         const double stepped = double{before} + field.weight * (next - double{before});
         before = now;
@@ -184,13 +203,14 @@ class GatherStep {
   const Map& sky_;
   float kept_;
   const Watch& watch_;
+  std::size_t receivers_;  ///< present, and 1 where none is
 };
 
 TexelVector take_irradiance(const Field& field) {
   TexelVector irradiance(field.irradiance.size());
   for_texels(field.irradiance, [&](std::size_t i) {
     const float value = field.irradiance.values[i];
-    irradiance[i] = std::isnan(value) ? 0 : double{value};
+    irradiance[i] = std::isnan(value) ? 0 : field.unit * double{value};
   });
   return irradiance;
 }
@@ -200,6 +220,7 @@ TexelVector take_irradiance(const Field& field) {
 ProgressiveSolution gather_progressively(const MapGather& gather, const Map& sky,
                                          const std::vector<LightSystem>& systems, const ProgressiveGoal& goal,
                                          const Watch& watch) {
+  assert(goal.error > 0);
   constexpr double kGoldenRatio = 0.6180339887498949;
   Progress progress("bounces", 0, watch);
   const double deep_share = deep_surface_share(sky, gather.surface());

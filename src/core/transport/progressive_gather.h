@@ -29,7 +29,8 @@ struct ProgressiveSolution {
 
 /// How far a solution is to go.
 struct ProgressiveGoal {
-  double error = 0.002;  ///< RMSE wanted in all, of which ending may leave half
+  double error =
+      0.002;  ///< RMSE wanted in all, in units of the brightest light, of which ending may leave half
   int last_azimuths =
       8;  ///< of each of the last two gathers; the third last has half of them, others a quarter
 };
