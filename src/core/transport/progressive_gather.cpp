@@ -31,7 +31,7 @@ struct Field {
   Map weighted = {};  ///< sums so far, of what was seen, and their weights
   Map weights = {};
 
-  double unit = 1;  ///< of its light: the power of two next to the brightest of one's own
+  double unit = 1;  ///< of its light: unit_of
 
   double albedo(std::size_t i) const { return system.varying ? (*system.varying)[i] : system.albedo; }
   /// E₀/π in units, of a receiver with the sky's share A.
@@ -66,13 +66,13 @@ void for_texels(const Map& map, Body&& body) {
   });
 }
 
-/// The power of two above the brightest direct light; 1 under the sky.
+/// The largest power of two that the brightest direct light reaches; 1 under the sky.
 double unit_of(const LightSystem& system) {
   if (!system.direct) return 1;
   const double brightest = *std::max_element(system.direct->begin(), system.direct->end());
   int exponent = 0;
   std::frexp(brightest, &exponent);
-  return brightest > 0 ? std::ldexp(1.0, std::clamp(exponent, -1000, 1000)) : 1;
+  return brightest > 0 ? std::ldexp(1.0, std::clamp(exponent, -1000, 1000) - 1) : 1;
 }
 
 /// Under the sky the closed form G with n guessed from A; light of one's own, in units, before it bounces.
