@@ -67,7 +67,8 @@ struct Checks {
 };
 
 struct Limits {
-  std::uint64_t memory = ~0ULL;  ///< bytes that all of it may take; links that do not fit are walked again
+  std::uint64_t memory = ~0ULL;  ///< bytes that all of it may take. Totals that miss the error
+                                 ///< are found once more only where it holds what that takes
   int threads = 0;               ///< 0: as OpenMP has it
 };
 

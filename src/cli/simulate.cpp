@@ -18,8 +18,11 @@ void report(const SimulateOptions& options, const Simulation& simulation) {
   if (options.run.quiet) return;
   const StepTimes& own = simulation.seconds;
   const Evidence& evidence = simulation.evidence;
-  fmt::print("{}: {} x {} texels, {} links ({}) in {:.1f} s\n", options.map.path.string(), simulation.width,
-             simulation.height, evidence.links, format_byte_size(evidence.link_bytes), own.total);
+  const std::string links = evidence.links > 0 ? fmt::format(", {} links ({})", evidence.links,
+                                                             format_byte_size(evidence.link_bytes))
+                                               : "";
+  fmt::print("{}: {} x {} texels{} in {:.1f} s\n", options.map.path.string(), simulation.width,
+             simulation.height, links, own.total);
   fmt::print("visibility {:.1f} s, bounces {:.1f} s, curves {:.1f} s, output {:.1f} s\n",
              evidence.seconds.visibility, evidence.seconds.bounces, own.curves, own.output);
   if (!evidence.total_checks.empty()) {

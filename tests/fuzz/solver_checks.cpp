@@ -149,7 +149,7 @@ TexelVector random_field(const Surface& surface, std::uint64_t seed) {
   return field;
 }
 
-/// Truncation: lanes end together, where none can rise by least_rise above what it has seen, 0.02; so much of
+/// Truncation: lanes end together, where none can rise by kLeastRise above what it has seen, 0.02; so much of
 /// a slope weighs up to 0.65 as much over level ground. What rises by about that may be told apart from what
 /// was seen before, or not. (Measured, 30000 maps: 0.005 and 0.004.)
 constexpr double kGatherBound = 0.65 * 0.02;

@@ -117,7 +117,7 @@ TEST_CASE("the gather's lanes and its one lane see the same light on every instr
     });
     INFO(name << ", fineness " << fineness << ", " << hwy::TargetName(target) << ": weight " << weight
               << ", light " << light << ", RMS " << std::sqrt(squares));
-    // Where no sample can rise by least_rise above what any lane has seen, all of them end. So much of a
+    // Where no sample can rise by kLeastRise above what any lane has seen, all of them end. So much of a
     // slope weighs up to 0.65 as much over level ground (measured: 4.9e-3, 1.7e-3 and 7e-5).
     CHECK(weight < 0.65 * 0.02);
     CHECK(light < 3e-3);
@@ -140,7 +140,7 @@ TEST_CASE("what a gather sees weighs what the sky's walk leaves of the hemispher
       worst = std::max(worst, std::fabs(double{gathered.weight[i]} - left) / options.azimuths);
     });
     INFO(name << ": " << worst << " of an azimuth's");
-    // a last rise of less than least_rise goes unseen, as above (measured: 6e-3)
+    // a last rise of less than kLeastRise goes unseen, as above (measured: 6e-3)
     CHECK(worst < 0.65 * 0.02);
   }
 }

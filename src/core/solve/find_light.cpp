@@ -20,7 +20,7 @@ void describe_operator(const PlannedTransport& found, const Task& task, Evidence
 PlannedTransport find_operator(const Task& task, double error, const SkyWanted& moments) {
   const Request& request = task.request;
   const Accuracy& accuracy = request.accuracy;
-  const LinkLimits limits{.memory = task.link_memory, .watch = request.watch};
+  const LinkLimits limits{.memory = task.free_memory, .watch = request.watch};
   const RayOptions rays{.rays = accuracy.rays, .seed = accuracy.seed};
   PlannedTransport found;
   if (accuracy.visibility == Visibility::rays) {

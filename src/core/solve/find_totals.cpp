@@ -83,9 +83,12 @@ void check_and_refine(const Task& task, const Transport& transport, std::vector<
   systems.resize(wanted);
   std::vector<HorizonCheck> checks = check_totals(task, transport, systems, solved);
   if (checks[0].receivers == 0) return;
-  const bool planned = request.accuracy.visibility == Visibility::horizon_walks && !request.accuracy.plan;
+  const Surface& surface = task.surface;
+  const bool may_refine =
+      request.accuracy.visibility == Visibility::horizon_walks && !request.accuracy.plan &&
+      refinement_bytes(surface.width(), surface.height(), request.wanted) <= task.free_memory;
   const std::vector<HorizonCheck> first = checks;
-  if (planned) refine_totals(task, systems, solved, checks);
+  if (may_refine) refine_totals(task, systems, solved, checks);
   for (std::size_t i = 0; i < wanted; ++i)
     evidence.refined = evidence.refined || checks[i].total_rmse != first[i].total_rmse;
   evidence.sky_rmse = checks[0].sky_rmse;

@@ -70,4 +70,10 @@ std::uint64_t estimate_memory(int width, int height, const Request& request) {
   return texels * per_texel + pyramids;
 }
 
+std::uint64_t refinement_bytes(int width, int height, const Wanted& wanted) {
+  const auto texels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+  return texels * (horizon_sky_bytes({}) + kVector * (1 + channels_of(wanted.totals))) +
+         gather_bytes(width, height, 0);
+}
+
 }  // namespace heightlight

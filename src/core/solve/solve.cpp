@@ -7,6 +7,7 @@
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "base/texel_algebra.h"
+#include "base/texels.h"
 #include "heightlight/error.h"
 #include "solve/sky_check.h"
 #include "solve/solver.h"
@@ -28,8 +29,8 @@ Evidence begin_evidence(const Request& request) {
   return evidence;
 }
 
-/// Bytes that the limit leaves for links.
-std::uint64_t memory_for_links(const Surface& surface, const Request& request, Evidence& evidence) {
+/// Bytes that the limit leaves.
+std::uint64_t memory_left(const Surface& surface, const Request& request, Evidence& evidence) {
   const std::uint64_t needed = estimate_memory(surface.width(), surface.height(), request);
   evidence.estimated_bytes = needed;
   if (needed < request.limits.memory) return request.limits.memory - needed;
@@ -74,7 +75,7 @@ Results solve(const Surface& surface, const Request& request) {
   Evidence& evidence = results.evidence;
   evidence = begin_evidence(request);
   const Task task{
-      .surface = surface, .request = request, .link_memory = memory_for_links(surface, request, evidence)};
+      .surface = surface, .request = request, .free_memory = memory_left(surface, request, evidence)};
   const Wanted& wanted = request.wanted;
   if (needs_operator(wanted)) find_light(task, results);
   Stopwatch watch;
@@ -91,11 +92,8 @@ Results solve(const Surface& surface, const Request& request) {
 
 Image<Vector3> bent_normals(const SkyMoments& moments, const Surface& surface) {
   Image<Vector3> bent(surface.width(), surface.height());
-  parallel_for(bent.height, [&](std::int64_t row) {
-    const std::size_t begin = bent.index(static_cast<int>(row), 0);
-    for (std::size_t i = begin; i < begin + static_cast<std::size_t>(bent.width); ++i) {
-      bent.values[i] = bent_normal(moments.first.values[i], surface.normal.values[i]);
-    }
+  for_texels(bent, [&](std::size_t i) {
+    bent.values[i] = bent_normal(moments.first.values[i], surface.normal.values[i]);
   });
   return bent;
 }

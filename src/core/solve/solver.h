@@ -13,7 +13,7 @@ namespace heightlight {
 struct Task {
   const Surface& surface;
   const Request& request;
-  std::uint64_t link_memory = 0;  ///< bytes that the limit leaves for links
+  std::uint64_t free_memory = 0;  ///< bytes that the limit leaves for links, or for a refinement
 };
 
 /// Throws UsageError naming the quantity that is out of its range or contradicts another.
@@ -39,6 +39,9 @@ void find_sky(const Task& task, Results& results);
 
 /// The operator; with horizon walks for that error, the moments wanted of its sky, and how it walks.
 PlannedTransport find_operator(const Task& task, double error, const SkyWanted& moments);
+
+/// Bytes that finding totals once more takes beside estimate_memory: a second operator, and the totals anew.
+std::uint64_t refinement_bytes(int width, int height, const Wanted& wanted);
 
 /// Notes what a linear solver did, where the energy is checked.
 void note_solver(double residual, int iterations, Evidence& evidence);

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/parallel.h"
+#include "base/texels.h"
 #include "heightlight/transport.h"
 
 namespace heightlight {
@@ -19,16 +19,6 @@ double conserved(double sum, double last, double albedo, double power) {
   return loss > 0 ? power * left * (1 - ratio) / loss : power * left;
 }
 
-/// Calls body(i) for all texels, on all threads.
-template <class Body>
-void for_texels(const Transport& transport, Body&& body) {
-  const auto width = static_cast<std::size_t>(transport.sky_view_factor.width);
-  parallel_for(transport.sky_view_factor.height, [&](std::int64_t row) {
-    const std::size_t begin = static_cast<std::size_t>(row) * width;
-    for (std::size_t i = begin; i < begin + width; ++i) body(i);
-  });
-}
-
 }  // namespace
 
 double conserve_tail(double sum, double last, int bounces, double albedo) {
@@ -39,7 +29,7 @@ TexelVector conserve_tail(const Transport& transport, const TexelVector& sum, co
                           int bounces, double albedo) {
   const double power = std::pow(albedo, bounces + 1);
   TexelVector tail(sum.size());
-  for_texels(transport, [&](std::size_t i) {
+  for_texels(transport.sky_view_factor, [&](std::size_t i) {
     tail[i] = is_missing(transport, i) ? 0 : conserved(sum[i], last[i], albedo, power);
   });
   return tail;

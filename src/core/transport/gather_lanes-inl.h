@@ -136,7 +136,7 @@ class GatherLanes {
   }
 
   HWY_INLINE GV bar_above(GV m) const {
-    const GV least = hn::Set(kGF, task_.walk.least_rise);
+    const GV least = hn::Set(kGF, kLeastRise);
     return hn::MulAdd(hn::Abs(m), least, hn::Add(m, least));
   }
 

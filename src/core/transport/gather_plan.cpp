@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/parallel.h"
+#include "base/texels.h"
 #include "heightlight/forms.h"
 #include "transport/horizon_plan.h"
 
@@ -25,16 +25,12 @@ constexpr double kWorthFiner = 0.9;
 /// what they make of the true one.
 Map guess_radiosity(const Map& sky) {
   Map radiosity(sky.width, sky.height);
-  parallel_for(sky.height, [&](std::int64_t row) {
-    const std::size_t begin = sky.index(static_cast<int>(row), 0);
-    for (std::size_t i = begin; i < begin + static_cast<std::size_t>(sky.width); ++i) {
-      const SkyViewFactor<float> share(sky.values[i]);
-      const bool missing = std::isnan(sky.values[i]);
-      radiosity.values[i] =
-          missing ? sky.values[i]
-                  : static_cast<float>(kPlanAlbedo) *
-                        bounced_total(share, guess_seen(share), static_cast<float>(kPlanAlbedo));
-    }
+  constexpr auto kAlbedo = static_cast<float>(kPlanAlbedo);
+  for_texels(sky, [&](std::size_t i) {
+    const SkyViewFactor<float> share(sky.values[i]);
+    const bool missing = std::isnan(sky.values[i]);
+    radiosity.values[i] =
+        missing ? sky.values[i] : kAlbedo * bounced_total(share, guess_seen(share), kAlbedo);
   });
   return radiosity;
 }

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <string>
 
-#include "base/parallel.h"
 #include "base/texel_algebra.h"
+#include "base/texels.h"
 #include "heightlight/error.h"
 #include "heightlight/transport.h"
 #include "transport/horizon_plan.h"
@@ -15,12 +15,7 @@ namespace {
 
 TexelVector to_vector(const Map& map) {
   TexelVector values(map.size());
-  parallel_for(map.height, [&](std::int64_t row) {
-    const std::size_t begin = map.index(static_cast<int>(row), 0);
-    for (std::size_t i = begin; i < begin + static_cast<std::size_t>(map.width); ++i) {
-      values[i] = std::isnan(map.values[i]) ? 0 : double{map.values[i]};
-    }
-  });
+  for_texels(map, [&](std::size_t i) { values[i] = std::isnan(map.values[i]) ? 0 : double{map.values[i]}; });
   return values;
 }
 
@@ -46,12 +41,13 @@ class HorizonTransport : public Transport {
   TexelVector gather(const TexelVector& x) const override { return gather(x, {plan_.walk.azimuths, 0.25}); }
 
   TexelVector next_bounce(const TexelVector& before, int bounce) const override {
-    constexpr double kGoldenRatio = 0.6180339887498949;
     // What is left falls from bounce to bounce, and with it what few azimuths cost. No bounce sees another
     // gather of the same light, as the last two of a total do: the first walks as many azimuths as both
-    // together.
-    const int azimuths = even_azimuths(2 * plan_.walk.azimuths / bounce);
-    return gather(before, {azimuths, std::fmod(bounce * kGoldenRatio, 1.0)});
+    // together. Curves show what is left on a logarithmic scale: late bounces, too, need a few.
+    constexpr int kFewest = 4;
+    const int first = 2 * plan_.walk.azimuths;
+    const int azimuths = even_azimuths(std::max(first / bounce, std::min(first, kFewest)));
+    return gather(before, {azimuths, golden_turn(bounce)});
   }
 
   Totals solve(const std::vector<LightSystem>& systems, const Watch& watch) const override {
@@ -68,13 +64,9 @@ class HorizonTransport : public Transport {
     turn.sky = &sky_view_factor;
     const int exponent = dimness(x);
     Map field(sky_view_factor.width, sky_view_factor.height);
-    parallel_for(field.height, [&](std::int64_t row) {
-      const std::size_t begin = field.index(static_cast<int>(row), 0);
-      for (std::size_t i = begin; i < begin + static_cast<std::size_t>(field.width); ++i) {
-        const bool missing = std::isnan(sky_view_factor.values[i]);
-        field.values[i] =
-            missing ? sky_view_factor.values[i] : static_cast<float>(std::ldexp(x[i], -exponent));
-      }
+    for_texels(field, [&](std::size_t i) {
+      const bool missing = std::isnan(sky_view_factor.values[i]);
+      field.values[i] = missing ? sky_view_factor.values[i] : static_cast<float>(std::ldexp(x[i], -exponent));
     });
     FieldPyramid pyramid = gather_->make_pyramid();
     pyramid.fill(field);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -39,7 +40,6 @@ class MapGather {
               const Watch& watch = {}) const;
 
   const Surface& surface() const { return surface_; }
-  const WalkOptions& options() const { return options_; }
 
  private:
   const Surface& surface_;
@@ -54,6 +54,9 @@ std::uint64_t gather_bytes(int width, int height, std::uint64_t fields);
 /// The number of azimuths next to `azimuths` that can be halved as often as pays: up to 4, above that a
 /// multiple of 4.
 constexpr int even_azimuths(int azimuths) { return azimuths <= 2 ? 2 : (azimuths + 3) / 4 * 4; }
+
+/// The turn of the k-th gather of many: as far from all before it as can be, by the golden ratio.
+inline double golden_turn(int k) { return std::fmod(k * 0.6180339887498949, 1.0); }
 
 /// How often the azimuths are halved for receivers that see so much of the surface, as an RMS of 1 − A. What
 /// K azimuths leave falls somewhat faster than 1/√K and grows with 1 − A: it is least for what all of them

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "base/parallel.h"
+#include "base/texels.h"
 #include "heightlight/forms.h"
 
 namespace heightlight {
@@ -55,15 +55,6 @@ double deep_surface_share(const Map& sky, const Surface& surface) {
 double highest_albedo(const LightSystem& system) {
   if (!system.varying) return system.albedo;
   return *std::max_element(system.varying->begin(), system.varying->end());
-}
-
-/// Calls body(i) for all texels, on all threads.
-template <class Body>
-void for_texels(const Map& map, Body&& body) {
-  parallel_for(map.height, [&](std::int64_t row) {
-    const std::size_t begin = map.index(static_cast<int>(row), 0);
-    for (std::size_t i = begin; i < begin + static_cast<std::size_t>(map.width); ++i) body(i);
-  });
 }
 
 /// The largest power of two that the brightest direct light reaches; 1 under the sky.
@@ -221,7 +212,6 @@ ProgressiveSolution gather_progressively(const MapGather& gather, const Map& sky
                                          const std::vector<LightSystem>& systems, const ProgressiveGoal& goal,
                                          const Watch& watch) {
   assert(goal.error > 0);
-  constexpr double kGoldenRatio = 0.6180339887498949;
   Progress progress("bounces", 0, watch);
   const double deep_share = deep_surface_share(sky, gather.surface());
   std::vector<Field> fields;
@@ -234,8 +224,7 @@ ProgressiveSolution gather_progressively(const MapGather& gather, const Map& sky
     }
     if (by_gathers_left.empty()) break;
     for (const auto& [left, group] : by_gathers_left) {
-      const GatherTurn turn{azimuths_of(left, goal.last_azimuths), std::fmod((k + 1) * kGoldenRatio, 1.0),
-                            &sky};
+      const GatherTurn turn{azimuths_of(left, goal.last_azimuths), golden_turn(k + 1), &sky};
       GatherStep step(gather, sky, left == 1 ? kKeptShare : 0, watch);
       for (std::size_t first = 0; first < group.size(); first += kMostFields) {
         const auto begin_of_some = group.begin() + static_cast<std::ptrdiff_t>(first);

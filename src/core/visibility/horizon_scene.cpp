@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/parallel.h"
+#include "base/texels.h"
 #include "visibility/walk_tile.h"
 
 namespace heightlight {
@@ -13,13 +13,10 @@ namespace {
 Map ring_heights(const HeightMips& mips, int l, float peak_share) {
   const HeightMips::Level& blocks = mips.levels[static_cast<std::size_t>(l) - 1];
   Map heights(blocks.mean.width, blocks.mean.height);
-  parallel_for(heights.height, [&](std::int64_t row) {
-    const std::size_t begin = heights.index(static_cast<int>(row), 0);
-    for (std::size_t i = begin; i < begin + static_cast<std::size_t>(heights.width); ++i) {
-      const float mean = blocks.mean.values[i];
-      const float peak = blocks.highest.values[i] - mean;
-      heights.values[i] = mean == kNoHeight ? kNoHeight : mean + peak_share * peak;
-    }
+  for_texels(heights, [&](std::size_t i) {
+    const float mean = blocks.mean.values[i];
+    const float peak = blocks.highest.values[i] - mean;
+    heights.values[i] = mean == kNoHeight ? kNoHeight : mean + peak_share * peak;
   });
   return heights;
 }

@@ -195,46 +195,4 @@ void WalkTile::load(const Surface& surface, const HeightMips& mips, const WalkOp
   }
 }
 
-constexpr int kCoarse = 8;  // values a side that one bound is for
-
-RingBounds::RingBounds(const WalkTile& tile) : tile_(tile) {
-  for (std::size_t ring = 1; ring < tile.windows.size(); ++ring) {
-    const HeightWindow& window = tile.windows[ring];
-    const int wide = (window.width + kCoarse - 1) / kCoarse;
-    const int high = (window.height + kCoarse - 1) / kCoarse;
-    std::vector<float>& coarse =
-        coarse_.emplace_back(static_cast<std::size_t>(wide) * static_cast<std::size_t>(high), kNoHeight);
-    for (int row = 0; row < window.height; ++row) {
-      const float* values = window.values.data() + std::ptrdiff_t{row} * window.width;
-      float* bounds = coarse.data() + std::ptrdiff_t{row / kCoarse} * wide;
-      for (int column = 0; column < window.width; ++column) {
-        float& bound = bounds[column / kCoarse];
-        bound = std::max(bound, values[column]);
-      }
-    }
-  }
-}
-
-float RingBounds::highest(const AzimuthTable& azimuth, int ring) const {
-  const HeightWindow& window = tile_.windows[static_cast<std::size_t>(ring)];
-  const std::vector<float>& coarse = coarse_[static_cast<std::size_t>(ring) - 1];
-  const int wide = (window.width + kCoarse - 1) / kCoarse;
-  const auto block = [level = window.level](int first, int last, int offset, int origin) {
-    return std::pair{(((first + offset) >> level) - origin) / kCoarse,
-                     (((last + offset) >> level) - origin) / kCoarse};
-  };
-  float highest = kNoHeight;
-  for (const RingSample& sample : azimuth.rings[static_cast<std::size_t>(ring) - 1]) {
-    const auto [top, bottom] =
-        block(tile_.first_row, tile_.first_row + WalkTile::kSide - 1, sample.row, window.first_row);
-    const auto [left, right] = block(tile_.first_column, tile_.first_column + WalkTile::kSide - 1,
-                                     sample.column, window.first_column);
-    for (int i = top; i <= bottom; ++i) {
-      for (int j = left; j <= right; ++j)
-        highest = std::max(highest, coarse[static_cast<std::size_t>(i * wide + j)]);
-    }
-  }
-  return highest;
-}
-
 }  // namespace heightlight

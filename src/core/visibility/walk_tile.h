@@ -99,17 +99,4 @@ struct WalkTile : ReceiverTile {
             const TileFrame& frame);
 };
 
-/// Upper bounds of what a tile's receivers meet in rings.
-class RingBounds {
- public:
-  explicit RingBounds(const WalkTile& tile);
-
-  /// Of the heights, above the tile's reference, that ring r of an azimuth meets from anywhere in the tile.
-  float highest(const AzimuthTable& azimuth, int ring) const;
-
- private:
-  const WalkTile& tile_;
-  std::vector<std::vector<float>> coarse_;  ///< [r − 1]: highest of 8 × 8 values each of ring r's window
-};
-
 }  // namespace heightlight

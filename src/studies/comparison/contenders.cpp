@@ -92,7 +92,7 @@ void add_walks(const ComparedScene& scene, std::vector<Contender>& contenders) {
                           .run = [scene, how = planned(error)] { return find_sky_alone(scene, how); }});
   }
   for (const double error : {0.02, 0.01, 0.005, 0.002}) {
-    contenders.push_back({.method = "horizon walk with links",
+    contenders.push_back({.method = "horizon walk with bounces",
                           .parameters = fmt::format("error {:g}", error),
                           .run = [scene, how = planned(error)] { return find_totals_alone(scene, how); }});
   }
