@@ -114,7 +114,7 @@ Growth measure(const Options& options, const std::string& map, int size) {
   growth.peak_bytes = peak_memory();
   const TexelVector sky(planned.sky.values.begin(), planned.sky.values.end());
   growth.check =
-      check_by_exact_walks(surface, sky, {{.total = solution.irradiance[0], .albedo = kAlbedo}}, 1)[0];
+      check_by_exact_walks(surface, sky, {{.total = solution.irradiance[0], .albedo = kAlbedo}})[0];
   return growth;
 }
 

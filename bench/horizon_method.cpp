@@ -68,7 +68,6 @@ Method horizon_total_method(const Surface& surface, double albedo) {
   method.run_map = [&surface, albedo](int inverse) {
     HorizonGoal goal;
     goal.error = 1.0 / inverse;
-    goal.total_only = true;
     const PlannedTransport planned = plan_horizon_transport(surface, goal);
     return to_map(planned.transport->solve({{.albedo = albedo}}, {}).irradiance[0], surface);
   };

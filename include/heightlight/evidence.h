@@ -77,7 +77,8 @@ struct Evidence {
   std::optional<double> sky_rmse;     ///< of A: the best figure there is; absent where no receiver is
   std::optional<SkyCheck> sky_check;  ///< of the sky's maps
   std::vector<HorizonCheck>
-      total_checks;      ///< per albedo, of A and of the total in the channel that errs most
+      total_checks;                 ///< per albedo, of A and of the total in the channel that errs most
+  std::vector<double> bounce_rmse;  ///< of E₀/π … E_K/π, where single bounces were asked for
   bool refined = false;  ///< the first check found totals that miss the error: these were found once more
 
   // How well energy is kept, where single bounces were asked for.

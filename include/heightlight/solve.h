@@ -61,9 +61,10 @@ struct Accuracy {
 
 /// What evidence is to be found; each costs exact walks from a few hundred receivers, or a gather.
 struct Checks {
-  bool sky = true;     ///< Evidence::sky_check, of maps of the sky
-  bool totals = true;  ///< Evidence::total_checks, of totals
-  bool energy = true;  ///< Evidence::energy, of single bounces
+  bool sky = true;      ///< Evidence::sky_check, of maps of the sky
+  bool totals = true;   ///< Evidence::total_checks, of totals
+  bool energy = true;   ///< Evidence::energy, of single bounces
+  bool bounces = true;  ///< Evidence::bounce_rmse
 };
 
 struct Limits {

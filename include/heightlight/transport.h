@@ -35,6 +35,15 @@ struct Totals {
   double residual = 0;                  ///< of solvers, the largest
 };
 
+/// Bounces one after the other, at ρ = 1.
+class BounceSequence {
+ public:
+  virtual ~BounceSequence() = default;
+  /// E_b/π = F E_{b−1}, where `last` is E_{b−1}: at the first call the direct light, then what the call
+  /// before gave, or as much of it as energy allows. `sum` is E₀ + … + E_{b−1}, no more than 1.
+  virtual TexelVector next(const TexelVector& last, const TexelVector& sum) = 0;
+};
+
 /// The operator F that carries irradiance from bounce to bounce, and the sky's share of every receiver:
 /// sky_view_factor_i + Σ_j F_ij = 1. Whatever finds visibility ends in one of these; bounces don't know
 /// which.
@@ -51,8 +60,8 @@ struct Transport {
   /// F x: what each receiver gets when the surface's radiosity / π is x, finite everywhere. 0 where missing.
   /// The same linear F at every call.
   virtual TexelVector gather(const TexelVector& x) const = 0;
-  /// E_b = F E_{b−1}, b ≥ 1. Walks turn from bounce to bounce, and take fewer azimuths the less is left.
-  virtual TexelVector next_bounce(const TexelVector& before, int) const { return gather(before); }
+  /// Bounces from the first on. This must outlive them.
+  virtual std::unique_ptr<BounceSequence> start_bounces() const;
   /// E/π of all bounces of each system, which is the same, to the last bit, whatever others are beside it. 0
   /// where missing.
   virtual Totals solve(const std::vector<LightSystem>& systems, const Watch& watch) const = 0;
@@ -119,8 +128,9 @@ FormFactors build_exact_form_factors(const Surface& surface, int azimuths, const
 /// How horizon walks gather. Gathers bear fewer azimuths than the sky does, since they tell only how what is
 /// seen of the surface is divided up, not how much of it there is.
 struct GatherPlan {
-  WalkOptions walk = {.azimuths = 8};  ///< azimuths: of each of the last two gathers of a total, of the first
-                                       ///< bounce, and of Transport::gather
+  WalkOptions walk = {.azimuths = 8};  ///< azimuths: of each of the last two gathers of a total, and of
+                                       ///< Transport::gather
+  int first_bounce_azimuths = 32;      ///< of the first of single bounces
   double error = 0;  ///< RMSE of the total at ρ = 0.8 expected from gathers alone; 0 where there was no pilot
 };
 
@@ -144,11 +154,10 @@ struct PlannedTransport {
 
 /// What a plan is to reach.
 struct HorizonGoal {
-  double error = 0.002;     ///< RMSE > 0 of A, and of the total irradiance at albedos up to 0.8
-  bool total_only = false;  ///< A may err by more, as long as the total does not
-  int azimuths = 0;         ///< > 0: those of the sky, fixed
-  std::uint64_t seed = 1;   ///< of the sample of receivers
-  double sky_share = 1;     ///< of the error, that A may have: less where finer things hang on its walk
+  double error = 0.002;    ///< RMSE > 0 of A, and of the total irradiance at albedos up to 0.8
+  int azimuths = 0;        ///< > 0: those of the sky, fixed
+  std::uint64_t seed = 1;  ///< of the sample of receivers
+  double sky_share = 1;    ///< of the error, that A may have: less where finer things hang on its walk
 };
 
 /// Chooses a plan by trying ways of walking on a sample of receivers against exact walks; then builds.
@@ -178,13 +187,20 @@ struct CheckedTotal {
   const TexelVector* direct = nullptr;   ///< E₀/π of light of one's own, where it is not the sky's
 };
 
+/// How a check goes about.
+struct CheckOptions {
+  std::uint64_t seed = 1;                  ///< of the receivers
+  double error = 0;                        ///< RMSE wanted; 0: none, every figure is to be exact
+  const Map* ambient_occlusion = nullptr;  ///< α to be compared, too
+  Watch watch = {};
+};
+
 /// Checks totals at the same receivers, one figure each: 256 receivers, and up to three times as many while
-/// the standard error of any figure passes a tenth of it. `sky` is A per texel, as found; `seed` picks the
-/// receivers; `ambient_occlusion` may be null.
+/// the standard error of any figure passes a tenth of it, unless it clearly meets the error wanted. `sky` is
+/// A per texel, as found.
 std::vector<HorizonCheck> check_by_exact_walks(const Surface& surface, const TexelVector& sky,
-                                               const std::vector<CheckedTotal>& totals, std::uint64_t seed,
-                                               const Watch& watch = {},
-                                               const Map* ambient_occlusion = nullptr);
+                                               const std::vector<CheckedTotal>& totals,
+                                               const CheckOptions& options = {});
 
 /// The solution x of x = source + F (ρ x), to a residual of 1e-8 of the source's norm, by BiCGSTAB, of stored
 /// links (gathers of walks are too coarse for it); `guess` is where it starts. `albedo` is ρ per texel, in

@@ -97,6 +97,7 @@ Json describe_evidence(const Evidence& evidence) {
   Json json;
   json["visibility"] = describe_visibility(evidence);
   if (evidence.has_links) json["links"] = {{"count", evidence.links}, {"bytes", evidence.link_bytes}};
+  if (!evidence.bounce_rmse.empty()) json["bounces_rmse"] = evidence.bounce_rmse;
   if (evidence.energy) json["energy"] = describe_energy(*evidence.energy);
   if (evidence.seen) {
     json["seen"] = {{"expected_sky_view_factor", evidence.seen->expected},

@@ -149,10 +149,10 @@ TexelVector random_field(const Surface& surface, std::uint64_t seed) {
   return field;
 }
 
-/// Truncation: lanes end together, where none can rise by kLeastRise above what it has seen, 0.02; so much of
-/// a slope weighs up to 0.65 as much over level ground. What rises by about that may be told apart from what
+/// Truncation: lanes end together, where none can rise by β above what it has seen; so much of a slope weighs
+/// up to 0.65 as much over level ground. What rises by about that may be told apart from what
 /// was seen before, or not. (Measured, 30000 maps: 0.005 and 0.004.)
-constexpr double kGatherBound = 0.65 * 0.02;
+constexpr double kGatherBound = 0.65 * least_rise(8);
 
 void compare_gather_walks(const Surface& surface, std::uint64_t seed, LargestDifferences& largest,
                           std::vector<std::string>& faults) {
@@ -170,7 +170,7 @@ void compare_gather_walks(const Surface& surface, std::uint64_t seed, LargestDif
     double worst = 0;
     for_receivers(surface, [&, a = a, b = b](int row, int column) {  // Clang 14 captures no bindings
       const std::size_t texel = surface.map.height.index(row, column);
-      const double difference = std::fabs(double{(*a)[texel]} - double{(*b)[texel]}) / options.azimuths;
+      const double difference = std::fabs(double{(*a)[texel]} - double{(*b)[texel]});
       if (!(difference <= worst)) worst = difference;
     });
     largest.gather_lanes = std::max(largest.gather_lanes, worst);

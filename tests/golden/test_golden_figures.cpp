@@ -60,7 +60,7 @@ std::vector<double> measure(const char* shape) {
   const Transport& transport = *planned.transport;
   const TexelVector total = transport.solve({{.albedo = kAlbedo}}, {}).irradiance[0];
   const HorizonCheck check =
-      check_by_exact_walks(surface, transport.direct, {{.total = total, .albedo = kAlbedo}}, 1)[0];
+      check_by_exact_walks(surface, transport.direct, {{.total = total, .albedo = kAlbedo}})[0];
   GtaoOptions preset;
   preset.reach = 0.1;
   const ScreenSpaceView view = gtao(make_depth_buffer(surface), preset);

@@ -43,7 +43,7 @@ TEST_CASE("the study of reliefs walks all azimuths of its plan", "[solve]") {
   Request request;
   request.wanted = {.sky = true, .bounces = 1};
   request.accuracy.plan = plan;
-  request.checks = {.sky = false, .totals = false, .energy = false};
+  request.checks = {.sky = false, .totals = false, .energy = false, .bounces = false};
   const Results studied = solve(wall, request);
   request.accuracy = {.visibility = Visibility::exact_slices, .azimuths = 128};
   const Results exact = solve(wall, request);

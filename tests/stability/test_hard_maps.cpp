@@ -114,7 +114,7 @@ TEST_CASE("the check by exact walks knows when walks are too coarse", "[stabilit
   const TexelVector albedo(144, 0.5);
   const TexelVector total = solve_equilibrium(*walked, walked->direct, albedo, walked->direct).irradiance;
   const HorizonCheck check =
-      check_by_exact_walks(surface, walked->direct, {{.total = total, .varying = &albedo}}, 1)[0];
+      check_by_exact_walks(surface, walked->direct, {{.total = total, .varying = &albedo}})[0];
   const ExactWalker walker(surface, check.azimuths);
   double squares = 0;
   for (int i = 0; i < 144; ++i) {

@@ -244,14 +244,11 @@ TEST_CASE("bounces of horizon walks come near those of exact slices, and bring n
   constexpr int kLast = 12;
   const Simulated exact = simulate_map(map, by_exact_slices(64), kLast);
   const Simulated walked = simulate_map(map, by_horizon_walks(), kLast);
-  double first = 0;
   for (std::size_t b = 1; b <= kLast; ++b) {
     const double error = rms(as_eigen(walked.bounces[b]) - as_eigen(exact.bounces[b]));
     INFO(shape << ", relief " << relief << ", bounce " << b << ": " << error << " of "
                << rms(exact.bounces[b]));
-    if (b == 1) first = error;
-    CHECK(error < 3e-3);         // discretisation (measured: 4e-4 to 2.1e-3 in the first)
-    CHECK(error < 1.5 * first);  // later ones have fewer azimuths, and less to err by
+    CHECK(error < 2.3e-3);  // discretisation: azimuths, fewer the less is left (measured: up to 1.8e-3)
   }
   CHECK(as_eigen(walked.series.sum).maxCoeff() < 1 + 1e-6);  // rounding, single precision
 }

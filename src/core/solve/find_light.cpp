@@ -32,9 +32,7 @@ PlannedTransport find_operator(const Task& task, double error, const SkyWanted& 
     found.transport = build_horizon_transport(task.surface, *accuracy.plan, error, request.watch);
     found.plan = *accuracy.plan;
   } else {
-    const bool keeps = keeps_sky(request.wanted);
-    HorizonGoal goal =
-        plan_goal(request, !keeps && !request.wanted.seen, keeps && request.wanted.moments.first);
+    HorizonGoal goal = plan_goal(request, keeps_sky(request.wanted) && request.wanted.moments.first);
     goal.error = error;
     found = plan_horizon_transport(task.surface, goal, moments, request.watch);
   }

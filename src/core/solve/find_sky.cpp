@@ -18,7 +18,7 @@ SkyPlan choose_plan(const Task& task, const Results& results) {
   if (request.accuracy.plan) return request.accuracy.plan->sky;
   if (results.evidence.plan && !request.wanted.reach) return results.evidence.plan->sky;
   HorizonPilot pilot(task.surface, request.accuracy.seed, request.watch);
-  SkyPlan plan = plan_sky(pilot, plan_goal(request, false, request.wanted.moments.first));
+  SkyPlan plan = plan_sky(pilot, plan_goal(request, request.wanted.moments.first));
   if (request.wanted.reach) {
     plan.full_from = 0;
     plan.full_share = 1;
@@ -52,9 +52,8 @@ void walk_sky_of(const Task& task, Results& results) {
 
 }  // namespace
 
-HorizonGoal plan_goal(const Request& request, bool total_only, bool moments) {
+HorizonGoal plan_goal(const Request& request, bool moments) {
   return {.error = request.accuracy.error,
-          .total_only = total_only,
           .azimuths = request.accuracy.azimuths,
           .seed = request.accuracy.seed,
           .sky_share = moments ? kMomentShare : 1};

@@ -36,8 +36,12 @@ std::vector<HorizonCheck> check_totals(const Task& task, const Transport& transp
                       .varying = systems[i].varying,
                       .direct = systems[i].direct});
   }
-  return check_by_exact_walks(task.surface, transport.direct, totals, task.request.accuracy.seed,
-                              task.request.watch, &transport.ambient_occlusion);
+  const Accuracy& accuracy = task.request.accuracy;
+  return check_by_exact_walks(task.surface, transport.direct, totals,
+                              {.seed = accuracy.seed,
+                               .error = accuracy.error,
+                               .ambient_occlusion = &transport.ambient_occlusion,
+                               .watch = task.request.watch});
 }
 
 /// Where the check finds more than the error wanted, totals are found once more, for a smaller one.

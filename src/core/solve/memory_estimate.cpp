@@ -3,6 +3,7 @@
 #include "heightlight/solve.h"
 #include "solve/solver.h"
 #include "surface/maximum_pyramid.h"
+#include "transport/bounce_check.h"
 #include "transport/horizon_pilot.h"
 #include "transport/map_gather.h"
 #include "visibility/height_mips.h"
@@ -37,8 +38,9 @@ std::uint64_t light_bytes(const Request& request) {
   const bool walks = request.accuracy.visibility == Visibility::horizon_walks;
   std::uint64_t bytes = kVector * systems + (wanted.seen ? 2 * kMap : 0);
   const std::uint64_t solving = walks ? systems * kSystemMaps * kMap : kSolverVectors * kVector;
-  // E_b, E_{b+1}, their sum and the tail are gone when totals are solved for.
-  const std::uint64_t bouncing = wanted.bounces > 0 ? 4 * kVector + kMap : 0;
+  // E_b, E_{b+1}, their sum and what walks keep (E_{b−1} and L twice, sums, a field) or the tail: they are
+  // gone when totals are solved for.
+  const std::uint64_t bouncing = wanted.bounces > 0 ? 6 * kVector + 2 * kMap : 0;
   bytes += std::max(solving, bouncing);
   if (wanted.bounces > 0 && !request.sink) bytes += kVector * static_cast<std::uint64_t>(wanted.bounces + 1);
   return bytes;
@@ -65,6 +67,7 @@ std::uint64_t estimate_memory(int width, int height, const Request& request) {
           kMostFields, channels_of(wanted.totals) + (wanted.seen || wanted.bounces > 0 ? 1 : 0));
       pyramids += gather_bytes(width, height, fields);
     }
+    if (wanted.bounces > 0 && request.checks.bounces) pyramids += BounceCheck::bytes(width, height);
     if (wanted.reach && (wanted.sky || wanted.moments.first)) per_texel += horizon_sky_bytes({});
   }
   return texels * per_texel + pyramids;

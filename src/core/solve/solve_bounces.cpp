@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/stopwatch.h"
 #include "base/texel_algebra.h"
 #include "heightlight/closed_forms.h"
 #include "solve/solver.h"
+#include "transport/bounce_check.h"
 
 namespace heightlight {
 namespace {
@@ -44,10 +46,20 @@ class Recipient {
   Recipient(const Task& task, const Transport& transport, Results& results)
       : task_(task), transport_(transport), results_(results) {
     seen_.expected = expected_seen(transport.sky_view_factor, task.surface).value;
+    if (task.request.checks.bounces) {
+      Stopwatch watch;
+      check_.emplace(task.surface, transport.direct, task.request.accuracy.seed, task.request.watch);
+      checked_ += watch.lap();
+    }
     if (sink()) timed([&] { sink()->take_sky(transport.ambient_occlusion, transport.sky_view_factor); });
   }
 
   void take(int b, const TexelVector& irradiance) {
+    if (check_) {
+      Stopwatch watch;
+      results_.evidence.bounce_rmse.push_back(check_->take(irradiance));
+      checked_ += watch.lap();
+    }
     if (b == 1) seen_.mean = measured_seen(transport_.sky_view_factor, irradiance, task_.surface).value;
     if (sink()) {
       timed([&] { sink()->take_bounce(b, irradiance); });
@@ -65,6 +77,7 @@ class Recipient {
   }
 
   const SeenSky& seen() const { return seen_; }
+  double seconds_of_checks() const { return checked_; }
 
  private:
   BounceSink* sink() const { return task_.request.sink; }
@@ -80,6 +93,8 @@ class Recipient {
   const Transport& transport_;
   Results& results_;
   SeenSky seen_;
+  std::optional<BounceCheck> check_;
+  double checked_ = 0;
 };
 
 }  // namespace
@@ -105,6 +120,8 @@ void solve_bounces(const Task& task, const Transport& transport, Results& result
   if (evidence.energy) check_energy(transport, series, tail.irradiance, *evidence.energy);
   recipient.take_tail(std::move(tail.irradiance));
   evidence.seen = recipient.seen();
+  evidence.seconds.check += recipient.seconds_of_checks();
+  evidence.seconds.bounces -= recipient.seconds_of_checks();
 }
 
 }  // namespace heightlight

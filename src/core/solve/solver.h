@@ -28,8 +28,8 @@ bool keeps_sky(const Wanted& wanted);
 /// Azimuths of exact slices where nobody says.
 constexpr int kExactAzimuths = 128;
 
-/// The goal of a plan; `total_only` as HorizonGoal has it, `moments`: the sky's moments hang on it.
-HorizonGoal plan_goal(const Request& request, bool total_only, bool moments);
+/// The goal of a plan; `moments`: the sky's moments hang on it.
+HorizonGoal plan_goal(const Request& request, bool moments);
 
 /// The operator, and by it bounces, totals and n. The sky comes with it where keeps_sky says so.
 void find_light(const Task& task, Results& results);

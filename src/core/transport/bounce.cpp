@@ -26,6 +26,7 @@ double area_product(const TexelVector& a, const TexelVector& b, const Surface& s
 BounceSeries bounce(const Transport& transport, const Surface& surface, int bounces,
                     const std::function<void(int, const TexelVector&)>& visit, const Watch& watch) {
   Progress progress("bounces", bounces + 1, watch);
+  const std::unique_ptr<BounceSequence> sequence = transport.start_bounces();
   BounceSeries series;
   series.bounces = bounces;
   TexelVector last = transport.direct;
@@ -33,7 +34,7 @@ BounceSeries bounce(const Transport& transport, const Surface& surface, int boun
   visit(0, last);
   for (int b = 1; b <= bounces; ++b) {
     progress.throw_if_stopped();
-    last = transport.next_bounce(last, b);
+    last = sequence->next(last, series.sum);
     // No more than is left: walks that turn from bounce to bounce might find more, by their noise. (What is
     // left is known to a few ε.)
     const auto left = (1 - as_eigen(series.sum).array()).max(0.0) + kRounding;
@@ -43,7 +44,7 @@ BounceSeries bounce(const Transport& transport, const Surface& surface, int boun
     progress.add(1);
   }
   series.last = last;
-  series.next = transport.next_bounce(last, bounces + 1);
+  series.next = sequence->next(last, series.sum);
   const double length = area_product(last, last, surface);
   series.spectral_radius = length > 0 ? area_product(last, series.next, surface) / length : 0;
   return series;

@@ -7,6 +7,14 @@
 
 namespace heightlight {
 
+/// The texel next to a place.
+inline std::size_t nearest_texel(const SurfacePoint& place, const Surface& surface) {
+  const auto width = static_cast<std::uint32_t>(surface.width());
+  const int row = static_cast<int>(place.cell / width) + (place.down > 0.5F ? 1 : 0);
+  const int column = static_cast<int>(place.cell % width) + (place.across > 0.5F ? 1 : 0);
+  return surface.map.height.index(row % surface.height(), column % surface.width());
+}
+
 /// x at the place that a link names, interpolated linearly on its facet. `value` gives x by the texel's
 /// index, finite everywhere; values at missing samples weigh in only where rounding puts a place beyond a
 /// hole's edge.

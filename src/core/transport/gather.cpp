@@ -78,6 +78,18 @@ TexelVector FormFactors::gather(const TexelVector& x) const {
   return result;
 }
 
+std::unique_ptr<BounceSequence> Transport::start_bounces() const {
+  class Gathers : public BounceSequence {
+   public:
+    explicit Gathers(const Transport& transport) : transport_(transport) {}
+    TexelVector next(const TexelVector& last, const TexelVector&) override { return transport_.gather(last); }
+
+   private:
+    const Transport& transport_;
+  };
+  return std::make_unique<Gathers>(*this);
+}
+
 double row_sum_error(const Transport& transport) {
   const TexelVector gathered = transport.gather(TexelVector(transport.direct.size(), 1.0));
   double worst = 0;

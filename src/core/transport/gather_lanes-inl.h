@@ -136,7 +136,7 @@ class GatherLanes {
   }
 
   HWY_INLINE GV bar_above(GV m) const {
-    const GV least = hn::Set(kGF, kLeastRise);
+    const GV least = hn::Set(kGF, task_.walk.least_rise);
     return hn::MulAdd(hn::Abs(m), least, hn::Add(m, least));
   }
 
@@ -306,6 +306,19 @@ class GatherLanes {
   std::array<GV, kGatherRows> height_, tangent_, slope_, bar_;
 };
 
+/// Makes means of the sums of a vector of receivers in each row.
+template <std::size_t kFields>
+HWY_INLINE void divide(float azimuths, int row, int column, GatherSums& sums) {
+  const GV share = hn::Set(kGF, 1 / azimuths);
+  for (std::size_t v = 0; v < kGatherRows; ++v) {
+    const std::size_t at =
+        (static_cast<std::size_t>(row) + v) * ReceiverTile::kSide + static_cast<std::size_t>(column);
+    const auto scale = [&](float* sum) HWY_ATTR { hn::Store(hn::Mul(share, hn::Load(kGF, sum)), kGF, sum); };
+    scale(sums.weight.data() + at);
+    for (std::size_t f = 0; f < kFields; ++f) scale(sums.weighted[f].data() + at);
+  }
+}
+
 template <std::size_t kFields>
 void gather_fields(const GatherTask& task, GatherSums& sums) {
   std::size_t most = 0;
@@ -315,11 +328,13 @@ void gather_fields(const GatherTask& task, GatherSums& sums) {
   for (std::size_t f = 0; f < kFields; ++f) sums.weighted[f].fill(0);
   for (int row = 0; row < task.tile.rows; row += static_cast<int>(kGatherRows)) {
     for (int column = 0; column < task.tile.columns; column += static_cast<int>(hn::Lanes(kGF))) {
-      for (std::size_t k = 0; k < task.azimuths[gather_block(row, column)]; ++k) {
+      const std::size_t azimuths = task.azimuths[gather_block(row, column)];
+      for (std::size_t k = 0; k < azimuths; ++k) {
         GatherLanes walk(task, task.walk.azimuths[k], row, column);
         walk.look(rows);
         for (std::size_t v = 0; v < kGatherRows; ++v) walk.gather<kFields>(v, rows[v], sums);
       }
+      if (azimuths > 1) divide<kFields>(static_cast<float>(azimuths), row, column, sums);
     }
   }
 }

@@ -47,8 +47,8 @@ GatherAzimuth flatten(const AzimuthTable& table, std::ptrdiff_t stride) {
 
 }  // namespace
 
-int halved_azimuths(int azimuths, int halvings) {
-  while (halvings > 0 && azimuths % 2 == 0) {
+int halved_azimuths(int azimuths, int halvings, int fewest) {
+  while (halvings > 0 && azimuths % 2 == 0 && azimuths / 2 >= fewest) {
     azimuths /= 2;
     --halvings;
   }
@@ -57,7 +57,7 @@ int halved_azimuths(int azimuths, int halvings) {
 
 GatherWalk make_gather_walk(const Surface& surface, const WalkOptions& options, double turn,
                             const FieldPyramid& layout) {
-  GatherWalk walk;
+  GatherWalk walk{.least_rise = least_rise(options.fineness)};
   const std::ptrdiff_t stride = layout.level(0).stride();
   for (const int k : spread_order(options.azimuths)) {
     const double azimuth = 2 * std::numbers::pi * (k + turn) / options.azimuths;

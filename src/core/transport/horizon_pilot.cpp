@@ -11,7 +11,6 @@
 #include "base/hash.h"
 #include "base/parallel.h"
 #include "base/texel_algebra.h"
-#include "transport/exact_gather.h"
 #include "visibility/horizon_sky.h"
 #include "visibility/sky_walk.h"
 #include "visibility/slice_integrals.h"
@@ -19,21 +18,33 @@
 namespace heightlight {
 namespace {
 
-constexpr std::int64_t kStrips = 12;
 constexpr int kRows = 8;
-constexpr int kExactPerStrip = 20;
+constexpr int kColumns = 32;
+constexpr int kExactPerStrip = 10;
+constexpr std::uint64_t kClassesSeed = 1;
 
-/// All tiles, in strips of kRows rows.
+/// Strips of a map of that size: bricks and joints take turns, and the larger the map the fewer of them a
+/// strip meets. What the pilot costs grows with the map's side, what it plans with the square.
+std::int64_t strip_count(int width, int height) {
+  constexpr double kStrips = 24;
+  constexpr double kSide = 1024;
+  const double side = std::sqrt(static_cast<double>(width) * height);
+  return static_cast<std::int64_t>(std::ceil(kStrips * std::max(1.0, side / kSide)));
+}
+
+/// All tiles, in strips of kRows rows and kColumns columns.
 std::vector<TileFrame> cut_strips(const Surface& surface) {
   const TileGrid tiles(surface.width(), surface.height());
   std::vector<TileFrame> strips;
   for (std::int64_t i = 0; i < tiles.count(); ++i) {
     const TileFrame tile = tiles.frame(i);
     for (int row = 0; row < tile.rows; row += kRows) {
-      TileFrame strip = tile;
-      strip.first_row += row;
-      strip.rows = std::min(kRows, tile.rows - row);
-      strips.push_back(strip);
+      for (int column = 0; column < tile.columns; column += kColumns) {
+        strips.push_back({.first_row = tile.first_row + row,
+                          .first_column = tile.first_column + column,
+                          .rows = std::min(kRows, tile.rows - row),
+                          .columns = std::min(kColumns, tile.columns - column)});
+      }
     }
   }
   return strips;
@@ -67,10 +78,9 @@ auto finite_values(const Map& x) {
 }  // namespace
 
 std::uint64_t horizon_pilot_bytes(int width, int height) {
-  const double stretches = 2 * std::sqrt(std::max(width, height));
-  const double profiles = static_cast<double>(kStrips * kExactPerStrip * HorizonPilot::kExactAzimuths);
-  const double views = profiles * (stretches * sizeof(VisibleInterval) + sizeof(double));
-  return height_mips_bytes(width, height) + static_cast<std::uint64_t>(views);
+  const auto receivers = static_cast<std::uint64_t>(strip_count(width, height) * kExactPerStrip);
+  return height_mips_bytes(width, height) +
+         receivers * slice_view_bytes(width, height, HorizonPilot::kExactAzimuths);
 }
 
 double root_mean_square(const std::vector<double>& errors) {
@@ -85,7 +95,7 @@ HorizonPilot::HorizonPilot(const Surface& surface, std::uint64_t seed, const Wat
       mips_(build_height_mips(surface)) {
   const std::vector<TileFrame> strips = cut_strips(surface);
   const auto count = static_cast<std::int64_t>(strips.size());
-  const std::int64_t wanted = std::min(kStrips, count);
+  const std::int64_t wanted = std::min(strip_count(surface.width(), surface.height()), count);
   for (std::int64_t i = 0; i < wanted; ++i) {
     // One from each of as many equal parts of the map.
     const std::int64_t begin = count * i / wanted;
@@ -117,6 +127,11 @@ HorizonPilot::HorizonPilot(const Surface& surface, std::uint64_t seed, const Wat
   std::erase_if(receivers,
                 [](const ExactReceiver& receiver) { return std::isnan(receiver.view.sky_view_factor); });
   exact_ = std::move(receivers);
+}
+
+std::size_t HorizonPilot::texel_of(const ExactReceiver& receiver) const {
+  const TileFrame& frame = frames_[receiver.frame];
+  return surface_.map.height.index(frame.first_row + receiver.row, frame.first_column + receiver.column);
 }
 
 std::vector<float> HorizonPilot::walk_sky_of(const WalkOptions& options, EvenWalk* even) {
@@ -166,17 +181,6 @@ std::vector<float> HorizonPilot::walk_sky_of(const WalkOptions& options, EvenWal
       },
       &progress);
   return result;
-}
-
-double HorizonPilot::total_seen(double albedo) const {
-  double seen = 0;
-  double total = 0;
-  for (const ExactReceiver& receiver : exact_) {
-    const double sky = receiver.view.sky_view_factor;
-    seen += 1 - sky;
-    if (sky > 0) total += (1 - sky) * sky / (1 - albedo * (1 - sky));
-  }
-  return seen > 0 ? total / seen : 1;
 }
 
 SamplingError HorizonPilot::sampling_error(int fineness, float peak_share) {
@@ -259,8 +263,31 @@ HorizonPilot::Sparse HorizonPilot::find_sparse(const WalkOptions& options, doubl
   return {std::numeric_limits<double>::infinity(), 0, root_mean(squares, count)};
 }
 
+void HorizonPilot::see_classes(const Map& sky, double albedo) {
+  const SkyClasses classes(surface_, sky.values, kClassesSeed);
+  const auto albedo_of = [albedo](std::size_t) { return albedo; };
+  const auto sky_of = [&sky](std::size_t i) { return double{sky.values[i]}; };
+  seen_.clear();
+  for (const ExactReceiver& receiver : exact_) {
+    const double own = sky_of(texel_of(receiver));
+    seen_.push_back({.own_class = classes.of(own),
+                     .seen = seen_by_class(receiver.view, surface_, classes, albedo_of, sky_of)});
+  }
+}
+
+double HorizonPilot::sky_effect(const Map& x) const {
+  std::vector<double> effects;
+  for (const ExactReceiver& receiver : exact_) {
+    const double share = 1 - receiver.view.sky_view_factor;
+    const double gathered = gather_exactly(receiver.view, surface_, finite_values(x));
+    effects.push_back(share > 0 ? 1 - gathered / share : 0);
+  }
+  return root_mean_square(effects);
+}
+
 double HorizonPilot::gather_sampling_error(const MapGather& gather, const FieldPyramid& pyramid,
                                            const Map& x) {
+  assert(seen_.size() == exact_.size());
   std::vector<float> seen(frames_.size() * ReceiverTile::kTexels);
   const GatherTurn turn{.azimuths = kExactAzimuths};
   gather.run_on(frames_, turn, {&pyramid},
@@ -269,15 +296,16 @@ double HorizonPilot::gather_sampling_error(const MapGather& gather, const FieldP
                   for (std::size_t at = 0; at < ReceiverTile::kTexels; ++at)
                     out[at] = sums.weight[at] > 0 ? sums.weighted[0][at] / sums.weight[at] : 0;
                 });
-  std::vector<double> errors;
-  for (const ExactReceiver& receiver : exact_) {
+  std::vector<FoundError> found = seen_;
+  for (std::size_t i = 0; i < exact_.size(); ++i) {
+    const ExactReceiver& receiver = exact_[i];
     const std::size_t at = receiver.frame * WalkTile::kTexels +
                            static_cast<std::size_t>(receiver.row * TileFrame::kSide + receiver.column);
     const double surface_share = 1 - receiver.view.sky_view_factor;
-    errors.push_back(surface_share * double{seen[at]} -
-                     gather_exactly(receiver.view, surface_, finite_values(x)));
+    found[i].residual =
+        surface_share * double{seen[at]} - gather_exactly(receiver.view, surface_, finite_values(x));
   }
-  return root_mean_square(errors);
+  return root_mean_square(propagate_errors(found));
 }
 
 double HorizonPilot::gather_azimuth_error(int azimuths, const Map& x) const {
@@ -295,6 +323,7 @@ double HorizonPilot::gather_azimuth_error(int azimuths, const Map& x) const {
         weighted[k] += view.links[link].weight * value_seen(view.links[link], surface_, value_of);
       }
     }
+    const double own = value_of(texel_of(receiver));
     const double share = 1 - view.sky_view_factor;
     const int walked = halved_azimuths(azimuths, azimuth_halvings(share));
     const auto step = static_cast<std::size_t>(kExactAzimuths / walked);
@@ -305,7 +334,7 @@ double HorizonPilot::gather_azimuth_error(int azimuths, const Map& x) const {
         sum += weighted[k];
         all += weight[k];
       }
-      return all > 0 ? sum / all : 0;
+      return all > 0 ? sum / all : own;
     };
     const double many = seen_by(0, 1);
     double squares = 0;

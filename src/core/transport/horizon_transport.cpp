@@ -1,13 +1,13 @@
-#include <algorithm>
 #include <cmath>
 #include <string>
 
-#include "base/texel_algebra.h"
 #include "base/texels.h"
 #include "heightlight/error.h"
 #include "heightlight/transport.h"
+#include "transport/field_gather.h"
 #include "transport/horizon_plan.h"
 #include "transport/progressive_gather.h"
+#include "transport/walked_bounces.h"
 #include "visibility/horizon_sky.h"
 
 namespace heightlight {
@@ -19,15 +19,8 @@ TexelVector to_vector(const Map& map) {
   return values;
 }
 
-/// The power of two by which light that single precision might lose is gathered brighter.
-int dimness(const TexelVector& x) {
-  constexpr int kDimmest = -40;
-  int exponent = 0;
-  const double brightest = as_eigen(x).cwiseAbs().maxCoeff();
-  std::frexp(brightest, &exponent);
-  if (brightest == 0 || exponent >= kDimmest) return 0;
-  return std::max(exponent, -1000);  // of what is dimmer still the power would be infinite
-}
+/// Bounces live on in narrow places, which coarse walks miss.
+constexpr int kBounceFineness = 16;
 
 class HorizonTransport : public Transport {
  public:
@@ -38,16 +31,19 @@ class HorizonTransport : public Transport {
     direct = to_vector(sky_view_factor);
   }
 
-  TexelVector gather(const TexelVector& x) const override { return gather(x, {plan_.walk.azimuths, 0.25}); }
+  TexelVector gather(const TexelVector& x) const override {
+    return gather_field(field_gather(), x, {plan_.walk.azimuths, 0.25});
+  }
 
-  TexelVector next_bounce(const TexelVector& before, int bounce) const override {
-    // What is left falls from bounce to bounce, and with it what few azimuths cost. No bounce sees another
-    // gather of the same light, as the last two of a total do: the first walks as many azimuths as both
-    // together. Curves show what is left on a logarithmic scale: late bounces, too, need a few.
-    constexpr int kFewest = 4;
-    const int first = 2 * plan_.walk.azimuths;
-    const int azimuths = even_azimuths(std::max(first / bounce, std::min(first, kFewest)));
-    return gather(before, {azimuths, golden_turn(bounce)});
+  std::unique_ptr<BounceSequence> start_bounces() const override {
+    const BounceWalk walk{.azimuths = plan_.first_bounce_azimuths, .error = error_};
+    std::shared_ptr<const MapGather> gather = gather_;
+    if (plan_.walk.fineness < kBounceFineness) {
+      WalkOptions finer = plan_.walk;
+      finer.fineness = kBounceFineness;
+      gather = std::make_shared<MapGather>(gather_->surface(), build_height_mips(gather_->surface()), finer);
+    }
+    return std::make_unique<WalkedBounces>(std::move(gather), *this, walk, watch_);
   }
 
   Totals solve(const std::vector<LightSystem>& systems, const Watch& watch) const override {
@@ -60,38 +56,10 @@ class HorizonTransport : public Transport {
   std::uint64_t bytes() const override { return 0; }
 
  private:
-  TexelVector gather(const TexelVector& x, GatherTurn turn) const {
-    turn.sky = &sky_view_factor;
-    const int exponent = dimness(x);
-    Map field(sky_view_factor.width, sky_view_factor.height);
-    for_texels(field, [&](std::size_t i) {
-      const bool missing = std::isnan(sky_view_factor.values[i]);
-      field.values[i] = missing ? sky_view_factor.values[i] : static_cast<float>(std::ldexp(x[i], -exponent));
-    });
-    FieldPyramid pyramid = gather_->make_pyramid();
-    pyramid.fill(field);
-    TexelVector result(x.size());
-    gather_->run(
-        turn, {&pyramid},
-        [&](const ReceiverTile& tile, const GatherSums& sums) {
-          for (int row = 0; row < tile.rows; ++row) {
-            for (int column = 0; column < tile.columns; ++column) {
-              const auto at = static_cast<std::size_t>(row * ReceiverTile::kSide + column);
-              if (!tile.present[at]) continue;
-              const std::size_t i = field.index(tile.first_row + row, tile.first_column + column);
-              // Who sees nothing along these azimuths, but has A < 1, sees its like.
-              const double seen = sums.weight[at] > 0 ? double{sums.weighted[0][at]} / double{sums.weight[at]}
-                                                      : double{field.values[i]};
-              result[i] = std::ldexp((1 - direct[i]) * seen, exponent);
-            }
-          }
-        },
-        watch_);
-    return result;
-  }
+  FieldGather field_gather() const { return {*gather_, sky_view_factor, direct, watch_}; }
 
   GatherPlan plan_;
-  std::unique_ptr<MapGather> gather_;
+  std::shared_ptr<const MapGather> gather_;
   double error_;
   Watch watch_;  ///< asked by gathers whether to go on
 };

@@ -37,7 +37,7 @@ void share_azimuths(const ReceiverTile& tile, const GatherTurn& turn, GatherTask
   for (int i = 0; i < tile.rows; i += kGatherBlockRows) {
     for (int j = 0; j < tile.columns; j += kGatherBlock) {
       const double share = surface_share(tile, *turn.sky, i, j);
-      const int count = share > 0 ? halved_azimuths(turn.azimuths, azimuth_halvings(share)) : 0;
+      const int count = share > 0 ? halved_azimuths(turn.azimuths, azimuth_halvings(share), turn.fewest) : 0;
       task.azimuths[gather_block(i, j)] = static_cast<std::uint16_t>(count);
     }
   }

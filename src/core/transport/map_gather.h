@@ -10,12 +10,13 @@
 
 namespace heightlight {
 
-/// What one gather over a map walks along: `azimuths` in equal steps, from `turn` of a step on.
+/// What one gather over a map walks along: `azimuths` in equal steps, from `turn` steps on.
 struct GatherTurn {
   int azimuths = 4;
   double turn = 0.25;
   const Map* sky = nullptr;  ///< A: receivers that see little of the surface walk fewer (azimuth_halvings),
                              ///< and those that see none do not walk; null: all walk all
+  int fewest = 1;            ///< azimuths of those that walk
 };
 
 /// Gathers over a whole map. What does not change from one to the next is made once.
@@ -55,8 +56,15 @@ std::uint64_t gather_bytes(int width, int height, std::uint64_t fields);
 /// multiple of 4.
 constexpr int even_azimuths(int azimuths) { return azimuths <= 2 ? 2 : (azimuths + 3) / 4 * 4; }
 
-/// The turn of the k-th gather of many: as far from all before it as can be, by the golden ratio.
-inline double golden_turn(int k) { return std::fmod(k * 0.6180339887498949, 1.0); }
+/// The turn of the k-th gather of many, in steps: up to as many as a walk halved kMostHalvings times has
+/// between its azimuths. Whatever the first of these are, the turns of receivers that walk every 1st, 2nd,
+/// 4th or 8th azimuth lie evenly between two of theirs: of 4000 multipliers this leaves the smallest gaps for
+/// 3 to 12 gathers, at most twice the mean one. (The golden ratio is as good for all azimuths. The halved
+/// ones it would leave the same sectors again and again, whatever the number of gathers.)
+inline double spread_turn(int k) {
+  constexpr double kMultiplier = 0.18026;
+  return (1 << kMostHalvings) * std::fmod(k * kMultiplier, 1.0);
+}
 
 /// How often the azimuths are halved for receivers that see so much of the surface, as an RMS of 1 − A. What
 /// K azimuths leave falls somewhat faster than 1/√K and grows with 1 − A: it is least for what all of them

@@ -7,18 +7,21 @@
 
 #include "base/texels.h"
 #include "heightlight/forms.h"
+#include "transport/sky_classes.h"
 
 namespace heightlight {
 namespace {
 
-constexpr int kFewestGathers = 3;
+constexpr int kFewestGathers = 2;
 constexpr int kMostGathers = 64;
 
-/// Share of the error wanted that ending the gathers may take.
-constexpr double kEndingShare = 0.5;
+/// Share of the error wanted that ending the gathers may take: less where one more, of few azimuths, costs
+/// little beside the last ones.
+constexpr double ending_share(int last_azimuths) { return last_azimuths < 12 ? 0.6 : 0.4; }
 
-/// The weight in the last gather of the sums of the one before, which saw light that is a little more wrong.
-constexpr float kKeptShare = 0.9F;
+/// What is left after a gather, as a share of what the means over classes tell: on bricks, cobbles and
+/// fractal ground at reliefs from .1 to 1, at most.
+constexpr double kBeyondClasses = 1.5;
 
 /// One system on its way.
 struct Field {
@@ -28,8 +31,10 @@ struct Field {
   int gathers = kMostGathers;
   Map irradiance = {};
   Map before = {};    ///< E_{k−1}
-  Map weighted = {};  ///< sums so far, of what was seen, and their weights
+  Map weighted = {};  ///< N and W
   Map weights = {};
+  double azimuths = 0;  ///< in N and W, as they weigh there
+  double kept = 0;      ///< share of N and W that the gather to come keeps
 
   double unit = 1;  ///< of its light: unit_of
 
@@ -92,14 +97,17 @@ Field begin(const LightSystem& system, const Map& sky, double deep_share) {
   return field;
 }
 
-/// How many gathers leave no more than the error of what the first one changed, RMS.
-int plan_gathers(double kappa, double change, double error) {
-  const double left = std::sqrt(1 - std::min(kappa * kappa, 0.9999));
-  const double rate = kappa > 0 ? (1 - left) / kappa : 0;
-  const double first = 2 * change / left;  // of the start, about
-  if (!(first > error) || !(rate > 0)) return kFewestGathers;
-  const int gathers = 1 + static_cast<int>(std::ceil(std::log(error / first) / std::log(rate)));
-  return std::clamp(gathers, kFewestGathers, kMostGathers);
+/// How many gathers in all leave no more than the error, when `change` is what the last of `done` would
+/// change by itself: no eigenvalue keeps more than κ, and each gather takes off what Chebyshev's weights do.
+/// Where the last one was meant to be the last, it may be.
+int plan_gathers(const Field& field, double change, double error, int done) {
+  const double kappa = field.kappa;
+  const double rate = kappa > 0 ? (1 - std::sqrt(1 - std::min(kappa * kappa, 0.9999))) / kappa : 0;
+  const double left = change / (1 - std::min(kappa, 0.9999));
+  const int fewest = std::max(field.gathers == done ? done : done + 1, kFewestGathers);
+  if (!(left > error) || !(rate > 0)) return fewest;
+  const int more = static_cast<int>(std::ceil(std::log(error / left) / std::log(rate)));
+  return std::clamp(done + more, fewest, kMostGathers);
 }
 
 void next_weight(int k, Field& field) {
@@ -109,92 +117,119 @@ void next_weight(int k, Field& field) {
                                                   : 1 / (1 - squared * field.weight / 4);
 }
 
-/// Azimuths of a gather when so many are left, itself among them. What early ones leave of noise falls with
-/// all else that is wrong.
-int azimuths_of(int left, int last_azimuths) {
-  const int part = left <= 2 ? 1 : left == 3 ? 2 : 4;
-  return even_azimuths(last_azimuths / part);
+/// What a gather would change with a weight of 1, summed over receivers.
+struct Change {
+  double squares = 0;
+  SkyClasses::PerClass<double> sum{};
+  SkyClasses::PerClass<std::size_t> receivers{};
+
+  void add(double change, std::size_t sky_class) {
+    squares += change * change;
+    sum[sky_class] += change;
+    ++receivers[sky_class];
+  }
+  void add(const Change& other) {
+    squares += other.squares;
+    for (std::size_t k = 0; k < sum.size(); ++k) {
+      sum[k] += other.sum[k];
+      receivers[k] += other.receivers[k];
+    }
+  }
+};
+
+/// RMS of what is wrong but for noise: under the sky, of the means over the classes. Light of one's own may
+/// be anywhere.
+double lasting_change(const Change& change, const LightSystem& system) {
+  double squares = 0;
+  double count = 0;
+  for (std::size_t k = 0; k < change.sum.size(); ++k) {
+    const auto receivers = static_cast<double>(change.receivers[k]);
+    count += receivers;
+    if (receivers > 0) squares += change.sum[k] * change.sum[k] / receivers;
+  }
+  if (!(count > 0)) return 0;
+  return system.direct ? std::sqrt(change.squares / count) : kBeyondClasses * std::sqrt(squares / count);
 }
 
-/// One gather's step of several fields, and the RMS of what it would change, per field, with a weight of 1.
+/// One gather's step of several fields, and what it changes of each.
 class GatherStep {
  public:
-  GatherStep(const MapGather& gather, const Map& sky, float kept, const Watch& watch)
-      : gather_(gather), sky_(sky), kept_(kept), watch_(watch) {
-    const auto missing =
-        std::count_if(sky.values.begin(), sky.values.end(), [](float a) { return std::isnan(a); });
-    receivers_ = std::max<std::size_t>(1, sky.size() - static_cast<std::size_t>(missing));
-  }
+  GatherStep(const MapGather& gather, const Map& sky, const Watch& watch)
+      : gather_(gather), sky_(sky), watch_(watch), classes_(gather.surface(), sky.values, kClassesSeed) {}
 
-  std::vector<double> take(const GatherTurn& turn, const std::vector<Field*>& fields) {
+  std::vector<Change> take(const GatherTurn& turn, const std::vector<Field*>& fields) {
     std::vector<FieldPyramid> pyramids;
     std::vector<const FieldPyramid*> read;
-    for (const Field* field : fields) pyramids.push_back(radiosity(*field));
+    for (Field* field : fields) {
+      const double walked = kFading * field->azimuths;
+      field->azimuths = walked + turn.azimuths;
+      field->kept = walked / field->azimuths;
+      pyramids.push_back(new_radiosity(*field));
+    }
     for (const FieldPyramid& pyramid : pyramids) read.push_back(&pyramid);
     const TileGrid grid(sky_.width, sky_.height);
     const auto tiles = static_cast<std::size_t>(grid.count());
-    std::vector<double> squares(tiles * fields.size());
+    std::vector<Change> parts(tiles * fields.size());
     gather_.run(
         turn, read,
         [&](const ReceiverTile& tile, const GatherSums& sums) {
           const auto index = static_cast<std::size_t>(tile.first_row / TileFrame::kSide * grid.across +
                                                       tile.first_column / TileFrame::kSide);
           for (std::size_t f = 0; f < fields.size(); ++f)
-            squares[f * tiles + index] = update(tile, sums.weight, sums.weighted[f], *fields[f]);
+            parts[f * tiles + index] = update(tile, sums.weight, sums.weighted[f], *fields[f]);
         },
         watch_);
-    std::vector<double> changes;
+    std::vector<Change> changes(fields.size());
     for (std::size_t f = 0; f < fields.size(); ++f) {
-      double sum = 0;
-      for (std::size_t i = 0; i < tiles; ++i) sum += squares[f * tiles + i];
-      changes.push_back(std::sqrt(sum / static_cast<double>(receivers_)));
+      for (std::size_t i = 0; i < tiles; ++i) changes[f].add(parts[f * tiles + i]);
     }
     return changes;
   }
 
  private:
-  FieldPyramid radiosity(const Field& field) const {
+  static constexpr std::uint64_t kClassesSeed = 1;
+
+  /// ρ (E_k − kept E_{k−1})
+  FieldPyramid new_radiosity(const Field& field) const {
     Map values(sky_.width, sky_.height);
+    const auto kept = static_cast<float>(field.kept);
     for_texels(sky_, [&](std::size_t i) {
-      values.values[i] = static_cast<float>(field.albedo(i)) * field.irradiance.values[i];
+      const float light = field.irradiance.values[i] - kept * field.before.values[i];
+      values.values[i] = static_cast<float>(field.albedo(i)) * light;
     });
     FieldPyramid pyramid = gather_.make_pyramid();
     pyramid.fill(values);
     return pyramid;
   }
 
-  double update(const ReceiverTile& tile, const GatherSums::Values& weight,
+  Change update(const ReceiverTile& tile, const GatherSums::Values& weight,
                 const GatherSums::Values& weighted, Field& field) const {
-    double squares = 0;
-    for (int row = 0; row < tile.rows; ++row) {
-      for (int column = 0; column < tile.columns; ++column) {
-        const auto at = static_cast<std::size_t>(row * ReceiverTile::kSide + column);
-        if (!tile.present[at]) continue;
-        const std::size_t i = sky_.index(tile.first_row + row, tile.first_column + column);
-        float& sum = field.weighted.values[i];
-        float& all = field.weights.values[i];
-        sum = weighted[at] + kept_ * sum;
-        all = weight[at] + kept_ * all;
-        float& now = field.irradiance.values[i];
-        float& before = field.before.values[i];
-        // Who sees nothing along all azimuths so far, but has A < 1, sees its like.
-        const double seen = all > 0 ? double{sum} / double{all} : field.albedo(i) * double{now};
-        const double share = double{sky_.values[i]};
-        const double next = field.direct(i, share) + (1 - share) * seen;
-        squares += (next - double{now}) * (next - double{now});
-        const double stepped = double{before} + field.weight * (next - double{before});
-        before = now;
-        now = static_cast<float>(std::max(stepped, 0.0));
-      }
-    }
-    return squares;
+    Change change;
+    const auto kept = static_cast<float>(field.kept);
+    for_present(tile, [&](std::size_t at, int row, int column) {
+      const std::size_t i = sky_.index(row, column);
+      float& sum = field.weighted.values[i];
+      float& all = field.weights.values[i];
+      sum = weighted[at] + kept * sum;
+      all = (1 - kept) * weight[at] + kept * all;
+      float& now = field.irradiance.values[i];
+      float& before = field.before.values[i];
+      // Who sees nothing along all azimuths so far, but has A < 1, sees its like.
+      const double seen = all > 0 ? double{sum} / double{all} : field.albedo(i) * double{now};
+      const double share = double{sky_.values[i]};
+      const double next = field.direct(i, share) + (1 - share) * seen;
+      change.add(next - double{now}, classes_.of(share));
+      const double stepped = double{before} + field.weight * (next - double{before});
+      before = now;
+      now = static_cast<float>(std::max(stepped, 0.0));
+    });
+    return change;
   }
 
   const MapGather& gather_;
   const Map& sky_;
-  float kept_;
   const Watch& watch_;
-  std::size_t receivers_;  ///< present, and 1 where none is
+  SkyClasses classes_;
 };
 
 TexelVector take_irradiance(const Field& field) {
@@ -208,6 +243,12 @@ TexelVector take_irradiance(const Field& field) {
 
 }  // namespace
 
+int gather_azimuths(int left, int last_azimuths) {
+  constexpr int kFewest = 4;
+  const int part = left <= 2 ? 1 : left == 3 ? 2 : 4;
+  return even_azimuths(std::max(last_azimuths / part, std::min(last_azimuths, kFewest)));
+}
+
 ProgressiveSolution gather_progressively(const MapGather& gather, const Map& sky,
                                          const std::vector<LightSystem>& systems, const ProgressiveGoal& goal,
                                          const Watch& watch) {
@@ -217,6 +258,7 @@ ProgressiveSolution gather_progressively(const MapGather& gather, const Map& sky
   std::vector<Field> fields;
   for (const LightSystem& system : systems) fields.push_back(begin(system, sky, deep_share));
   ProgressiveSolution solution;
+  GatherStep step(gather, sky, watch);
   for (int k = 0; k < kMostGathers; ++k) {
     std::map<int, std::vector<Field*>> by_gathers_left;
     for (Field& field : fields) {
@@ -224,16 +266,19 @@ ProgressiveSolution gather_progressively(const MapGather& gather, const Map& sky
     }
     if (by_gathers_left.empty()) break;
     for (const auto& [left, group] : by_gathers_left) {
-      const GatherTurn turn{azimuths_of(left, goal.last_azimuths), golden_turn(k + 1), &sky};
-      GatherStep step(gather, sky, left == 1 ? kKeptShare : 0, watch);
+      const GatherTurn turn{gather_azimuths(left, goal.last_azimuths), spread_turn(k + 1), &sky};
       for (std::size_t first = 0; first < group.size(); first += kMostFields) {
         const auto begin_of_some = group.begin() + static_cast<std::ptrdiff_t>(first);
         const std::size_t count = std::min(kMostFields, group.size() - first);
         const std::vector<Field*> some(begin_of_some, begin_of_some + static_cast<std::ptrdiff_t>(count));
         for (Field* field : some) next_weight(k, *field);
-        const std::vector<double> changes = step.take(turn, some);
-        for (std::size_t f = 0; k == 0 && f < count; ++f)
-          some[f]->gathers = plan_gathers(some[f]->kappa, changes[f], kEndingShare * goal.error);
+        const std::vector<Change> changes = step.take(turn, some);
+        // The first gather tells of what is wrong with the start, the second of what lives longer.
+        for (std::size_t f = 0; k < 2 && f < count; ++f) {
+          const double change = lasting_change(changes[f], some[f]->system);
+          some[f]->gathers =
+              plan_gathers(*some[f], change, ending_share(goal.last_azimuths) * goal.error, k + 1);
+        }
       }
     }
     solution.gathers = k + 1;

@@ -10,9 +10,6 @@ namespace {
 /// Share of the error aimed at that sampling may take.
 constexpr double kSamplingShare = 0.9;
 
-/// Where the total alone is wanted: the share of its error that the sky may take. Links cost more.
-constexpr double kSkyShare = 0.43;
-
 /// Sparse azimuths must cost less than this share of the fewest that are the same everywhere.
 constexpr double kWorthSparse = 0.85;
 
@@ -132,11 +129,7 @@ SkyPlan plan_sky(HorizonPilot& pilot, const HorizonGoal& goal) {
   SkyPlan plan;
   if (goal.azimuths > 0) plan.walk.azimuths = goal.azimuths;
   if (pilot.empty()) return plan;
-  // A receiver that sees less of the sky sees more of the surface: its total changes by 1 − ρ × (the mean of
-  // the total seen) of what A does. The total needs no better sky than A itself would.
-  const double error =
-      kPlanAim * goal.error * goal.sky_share *
-      (goal.total_only ? std::max(1.0, kSkyShare / (1 - kPlanAlbedo * pilot.total_seen(kPlanAlbedo))) : 1);
+  const double error = kPlanAim * goal.error * goal.sky_share;
   SamplingError sampling;
   double few = 0;
   plan.walk = choose_sampling(pilot, error, goal.azimuths, sampling);

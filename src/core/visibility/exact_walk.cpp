@@ -29,6 +29,11 @@ SurfacePoint place_between(const SurfacePoint& begin, const SurfacePoint& end, d
 
 }  // namespace
 
+std::uint64_t slice_view_bytes(int width, int height, int azimuths) {
+  const double stretches = 2 * std::sqrt(std::max(width, height));
+  return static_cast<std::uint64_t>(azimuths * (stretches * sizeof(VisibleInterval) + sizeof(double)));
+}
+
 ExactWalker::ExactWalker(const Surface& surface, int azimuths, double reach)
     : surface_(surface), azimuths_(azimuths), reach_(reach) {
   assert(azimuths >= 1 && reach > 0);

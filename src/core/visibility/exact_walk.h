@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -43,6 +44,10 @@ struct SliceView {
   std::vector<VisibleInterval> links;  ///< by azimuth, each from below upwards
   std::vector<std::size_t> links_end;  ///< of each azimuth: behind its last link
 };
+
+/// Bytes of what a receiver sees along so many azimuths. A profile over n texels has about 2 √n stretches in
+/// view where the ground is fractal, and fewer elsewhere.
+std::uint64_t slice_view_bytes(int width, int height, int azimuths);
 
 /// Walks from the vertices of a surface. Holds what all receivers share; the surface must outlive it.
 class ExactWalker {

@@ -80,6 +80,18 @@ struct ReceiverTile : TileFrame {
   void load_receivers(const Surface& surface, float reference, const TileFrame& frame);
 };
 
+/// Calls visit(index in the tile, row, column) for every receiver that is present; row and column are the
+/// map's.
+template <class Visit>
+void for_present(const ReceiverTile& tile, Visit&& visit) {
+  for (int i = 0; i < tile.rows; ++i) {
+    for (int j = 0; j < tile.columns; ++j) {
+      const auto at = static_cast<std::size_t>(i * ReceiverTile::kSide + j);
+      if (tile.present[at]) visit(at, tile.first_row + i, tile.first_column + j);
+    }
+  }
+}
+
 /// Receivers with the heights around them copied from the map: borders, holes and wrapping are dealt with
 /// here, so that walks need not know of them.
 struct WalkTile : ReceiverTile {

@@ -12,7 +12,7 @@ namespace {
 /// What `simulate` or `bake` would find, without evidence: what that costs is not the method's.
 Estimate solve_scene(const ComparedScene& scene, const Wanted& wanted, const Accuracy& accuracy) {
   Request request{.wanted = wanted, .accuracy = accuracy};
-  request.checks = {.sky = false, .totals = false, .energy = false};
+  request.checks = {.sky = false, .totals = false, .energy = false, .bounces = false};
   request.limits.memory = scene.memory;
   Results results = solve(scene.surface, request);
   Estimate estimate;

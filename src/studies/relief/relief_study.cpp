@@ -56,7 +56,7 @@ BounceCurves simulate_curves(Heightmap map, const ReliefStudy& study, const Watc
   Request request;
   request.wanted.bounces = study.bounces;
   request.accuracy.plan = study_plan();
-  request.checks = {.sky = false, .totals = false, .energy = false};
+  request.checks = {.sky = false, .totals = false, .energy = false, .bounces = false};
   request.watch = {.tell = {}, .stopped = watch.stopped};
   request.sink = &curves;
   solve(surface, request);
