@@ -87,10 +87,16 @@ int choose_bounce_azimuths(const AzimuthErrors& errors, double error) {
   return azimuths;
 }
 
+/// Of what the last gather's azimuths leave by themselves, the share that those before do not make up for:
+/// turned azimuths lie less evenly than as many of one gather. It tells where few azimuths do for evenness'
+/// sake alone, such as on ridges.
+constexpr double kUnevenShare = 0.2;
+
 /// What the azimuths of gathers leave whose last ones walk K.
 double azimuths_leave(const AzimuthErrors& errors, int azimuths) {
   return std::hypot(errors.at(azimuths_together(1, azimuths)),
-                    kCarriedShare * errors.at(azimuths_together(2, azimuths)));
+                    kCarriedShare * errors.at(azimuths_together(2, azimuths)),
+                    kUnevenShare * errors.at(azimuths));
 }
 
 /// What five gathers cost, a usual number: an azimuth took 24, 30, 34, 42, 49, 59 and 70 ns per texel for ν

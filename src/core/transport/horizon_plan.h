@@ -10,9 +10,6 @@ namespace heightlight {
 /// Of the error wanted, what a plan aims at: the pilot's sample is small.
 constexpr double kPlanAim = 0.9;
 
-/// The albedo up to which a plan's error is meant.
-constexpr double kPlanAlbedo = 0.8;
-
 /// What a plan's walk of the sky costs, K (5 + ν), less where every other azimuth is walked: an azimuth took
 /// 4.3, 5.4, 7.1, 9.1 and 11.5 ns for ν of 8, 12, 16, 24 and 32.
 double sky_cost(const SkyPlan& plan);

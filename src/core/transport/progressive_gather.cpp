@@ -27,6 +27,7 @@ constexpr double kBeyondClasses = 1.5;
 struct Field {
   const LightSystem& system;
   double kappa = 0;
+  int last_azimuths = 2;
   double weight = 1;  ///< w of the step to come
   int gathers = kMostGathers;
   Map irradiance = {};
@@ -55,6 +56,23 @@ double deep_surface_share(const Map& sky, const Surface& surface) {
     weights += weight;
   }
   return weights > 0 ? sum / weights : 0;
+}
+
+/// Standard deviation of a field over what is seen: every place weighs its area times 1 − A.
+template <class Value>
+double seen_spread(const Map& sky, const Surface& surface, Value&& value) {
+  double weights = 0;
+  double sum = 0;
+  double squares = 0;
+  for (std::size_t i = 0; i < sky.size(); ++i) {
+    if (std::isnan(sky.values[i])) continue;
+    const double weight = (1 - double{sky.values[i]}) / double{surface.normal.values[i].z};
+    const double x = value(i);
+    weights += weight;
+    sum += weight * x;
+    squares += weight * x * x;
+  }
+  return weights > 0 ? std::sqrt(std::max(0.0, squares - sum * sum / weights) / weights) : 0;
 }
 
 double highest_albedo(const LightSystem& system) {
@@ -95,6 +113,14 @@ Field begin(const LightSystem& system, const Map& sky, double deep_share) {
   field.weighted = Map(sky.width, sky.height);
   field.weights = Map(sky.width, sky.height);
   return field;
+}
+
+/// Azimuths for a field that is so much more uneven than the one that they are planned for.
+int azimuths_for(double unevenness, int planned) {
+  constexpr double kOrder = 0.75;  // what K azimuths leave falls about as K^−0.75
+  constexpr double kMost = 16;
+  if (!(unevenness > 1)) return planned;
+  return even_azimuths(static_cast<int>(planned * std::min(std::pow(unevenness, 1 / kOrder), kMost)));
 }
 
 /// How many gathers in all leave no more than the error, when `change` is what the last of `done` would
@@ -256,17 +282,28 @@ ProgressiveSolution gather_progressively(const MapGather& gather, const Map& sky
   Progress progress("bounces", 0, watch);
   const double deep_share = deep_surface_share(sky, gather.surface());
   std::vector<Field> fields;
-  for (const LightSystem& system : systems) fields.push_back(begin(system, sky, deep_share));
+  const Surface& surface = gather.surface();
+  const double planned_for = seen_spread(sky, surface, [&](std::size_t i) {
+    const SkyViewFactor<double> share(double{sky.values[i]});
+    return kPlanAlbedo * bounced_total(share, guess_seen(share), kPlanAlbedo);
+  });
+  for (const LightSystem& system : systems) {
+    Field& field = fields.emplace_back(begin(system, sky, deep_share));
+    const double spread = seen_spread(
+        sky, surface, [&](std::size_t i) { return field.albedo(i) * double{field.irradiance.values[i]}; });
+    field.last_azimuths = azimuths_for(planned_for > 0 ? spread / planned_for : 1, goal.last_azimuths);
+  }
   ProgressiveSolution solution;
   GatherStep step(gather, sky, watch);
   for (int k = 0; k < kMostGathers; ++k) {
-    std::map<int, std::vector<Field*>> by_gathers_left;
+    std::map<int, std::vector<Field*>> by_azimuths;
     for (Field& field : fields) {
-      if (k < field.gathers) by_gathers_left[field.gathers - k].push_back(&field);
+      const int left = field.gathers - k;
+      if (left > 0) by_azimuths[gather_azimuths(left, field.last_azimuths)].push_back(&field);
     }
-    if (by_gathers_left.empty()) break;
-    for (const auto& [left, group] : by_gathers_left) {
-      const GatherTurn turn{gather_azimuths(left, goal.last_azimuths), spread_turn(k + 1), &sky};
+    if (by_azimuths.empty()) break;
+    for (const auto& [azimuths, group] : by_azimuths) {
+      const GatherTurn turn{.azimuths = azimuths, .turn = spread_turn(k + 1), .sky = &sky};
       for (std::size_t first = 0; first < group.size(); first += kMostFields) {
         const auto begin_of_some = group.begin() + static_cast<std::ptrdiff_t>(first);
         const std::size_t count = std::min(kMostFields, group.size() - first);
@@ -277,7 +314,7 @@ ProgressiveSolution gather_progressively(const MapGather& gather, const Map& sky
         for (std::size_t f = 0; k < 2 && f < count; ++f) {
           const double change = lasting_change(changes[f], some[f]->system);
           some[f]->gathers =
-              plan_gathers(*some[f], change, ending_share(goal.last_azimuths) * goal.error, k + 1);
+              plan_gathers(*some[f], change, ending_share(some[f]->last_azimuths) * goal.error, k + 1);
         }
       }
     }

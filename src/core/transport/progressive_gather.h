@@ -39,8 +39,12 @@ struct ProgressiveGoal {
   double error =
       0.002;  ///< RMSE wanted in all, in units of the brightest light, of which ending may leave half
   int last_azimuths =
-      8;  ///< of each of the last two gathers; the third last has half of them, others a quarter
+      8;  ///< of each of the last two gathers; the third last has half of them, others a quarter. They
+          ///< are planned for the sky's light at kPlanAlbedo: more uneven radiosity gets more
 };
+
+/// The albedo up to which a plan's error is meant.
+constexpr double kPlanAlbedo = 0.8;
 
 /// λ of the azimuths walked before, by what they are together: what the steps between gathers bring is known
 /// from few azimuths. (On bricks 0.3 is as good, 1 half as good again.)
