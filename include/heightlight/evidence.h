@@ -92,7 +92,7 @@ struct Evidence {
   int threads = 1;
 };
 
-/// Says in words which errors the checks found to be a tenth or more above the one wanted; empty where none
+/// Says in words which errors the checks found to be 15 % or more above the one wanted; empty where none
 /// is, or where none was wanted.
 std::string missed_error(const Evidence& evidence);
 

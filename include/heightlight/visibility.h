@@ -37,6 +37,7 @@ struct SkyPlan {
                          ///< which all azimuths are walked; their number is a multiple of 4
   double full_share = 1;  ///< of the blocks, those that walk all azimuths, by the pilot
   double error = 0;       ///< RMSE of A expected, from the pilot; 0 where there was none
+  double sampled = 0;     ///< the part of it that azimuths share, from sampling
 };
 
 /// What horizon walks are to find of the sky beside its shares α and A.

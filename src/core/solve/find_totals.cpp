@@ -7,11 +7,6 @@
 namespace heightlight {
 namespace {
 
-/// More than this share of the error wanted is a miss (missed_error), and by this share of it what is missed
-/// is planned for once more. The share is the same for all: what becomes of a total must not hang on others.
-constexpr double kMissedFrom = 1.1;
-constexpr double kErrorAgain = 0.5;
-
 /// One system per channel of the albedos asked for, in their order, and one at kSeenAlbedo where `seen` says
 /// so.
 std::vector<LightSystem> list_systems(const Wanted& wanted, bool seen) {
@@ -44,27 +39,37 @@ std::vector<HorizonCheck> check_totals(const Task& task, const Transport& transp
                                .watch = task.request.watch});
 }
 
-/// Where the check finds more than the error wanted, totals are found once more, for a smaller one.
-void refine_totals(const Task& task, const std::vector<LightSystem>& systems, Totals& solved,
-                   std::vector<HorizonCheck>& checks) {
-  const double most = kMissedFrom * task.request.accuracy.error;
-  std::vector<std::size_t> missed;
+/// Finds those of the totals once more whose numbers are given, for a share of the error wanted.
+void find_again(const Task& task, const std::vector<LightSystem>& systems,
+                const std::vector<std::size_t>& which, double share, Totals& solved,
+                std::vector<HorizonCheck>& checks) {
   std::vector<LightSystem> again;
-  for (std::size_t i = 0; i < systems.size(); ++i) {
-    if (checks[i].total_rmse <= most) continue;
-    missed.push_back(i);
-    again.push_back(systems[i]);
-  }
-  if (missed.empty()) return;
-  const PlannedTransport finer = find_operator(task, kErrorAgain * task.request.accuracy.error, {});
+  for (const std::size_t i : which) again.push_back(systems[i]);
+  const PlannedTransport finer = find_operator(task, share * task.request.accuracy.error, {});
   Totals found = finer.transport->solve(again, task.request.watch);
   const std::vector<HorizonCheck> found_checks = check_totals(task, *finer.transport, again, found);
-  for (std::size_t k = 0; k < missed.size(); ++k) {
-    solved.irradiance[missed[k]] = std::move(found.irradiance[k]);
-    checks[missed[k]].total_rmse = found_checks[k].total_rmse;
-    checks[missed[k]].total_standard_error = found_checks[k].total_standard_error;
+  for (std::size_t k = 0; k < which.size(); ++k) {
+    solved.irradiance[which[k]] = std::move(found.irradiance[k]);
+    checks[which[k]].total_rmse = found_checks[k].total_rmse;
+    checks[which[k]].total_standard_error = found_checks[k].total_standard_error;
   }
   solved.gathers = std::max(solved.gathers, found.gathers);
+}
+
+/// Where the check finds that the error wanted is missed, totals are found once more, for a smaller one:
+/// smaller the more it is missed by, and whatever becomes of other totals.
+void refine_totals(const Task& task, const std::vector<LightSystem>& systems, Totals& solved,
+                   std::vector<HorizonCheck>& checks) {
+  constexpr double kByMuch = 1.4;
+  const double wanted = task.request.accuracy.error;
+  std::vector<std::size_t> little;
+  std::vector<std::size_t> much;
+  for (std::size_t i = 0; i < systems.size(); ++i) {
+    const double reached = checks[i].total_rmse / wanted;
+    if (reached > kMissed) (reached > kByMuch ? much : little).push_back(i);
+  }
+  if (!little.empty()) find_again(task, systems, little, 0.7, solved, checks);
+  if (!much.empty()) find_again(task, systems, much, 0.5, solved, checks);
 }
 
 /// The channel of each albedo that errs most stands for it.

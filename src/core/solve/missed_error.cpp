@@ -2,12 +2,11 @@
 #include <string>
 
 #include "base/digits.h"
-#include "heightlight/evidence.h"
+#include "solve/solver.h"
 
 namespace heightlight {
 
 std::string missed_error(const Evidence& evidence) {
-  constexpr double kMissed = 1.1;
   const double most = kMissed * evidence.error_wanted;
   if (!(most > 0)) return {};
   double total = 0;

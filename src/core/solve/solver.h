@@ -25,6 +25,9 @@ bool needs_operator(const Wanted& wanted);
 /// Whether the operator's own sky is the one that was asked for.
 bool keeps_sky(const Wanted& wanted);
 
+/// An error that is found to be more than so many times the one wanted is missed.
+constexpr double kMissed = 1.15;
+
 /// Azimuths of exact slices where nobody says.
 constexpr int kExactAzimuths = 128;
 

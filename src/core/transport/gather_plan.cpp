@@ -19,28 +19,11 @@ constexpr double kLeastShare = 0.4;
 /// Sampling that leaves less than this share of the error need not be finer.
 constexpr double kFineEnough = 0.3;
 
+/// What few azimuths leave is little if it is no more than this share of what sampling does.
+constexpr double kLittle = 0.5;
+
 /// A finer walk that leaves more than this of the error is not worth it.
 constexpr double kWorthFiner = 0.9;
-
-/// Radiosity / π at kPlanAlbedo, as the closed form has it. What gathers make of it errs by about as much as
-/// what they make of the true one.
-Map guess_radiosity(const Map& sky) {
-  Map radiosity(sky.width, sky.height);
-  constexpr auto kAlbedo = static_cast<float>(kPlanAlbedo);
-  for_texels(sky, [&](std::size_t i) {
-    const SkyViewFactor<float> share(sky.values[i]);
-    const bool missing = std::isnan(sky.values[i]);
-    radiosity.values[i] =
-        missing ? sky.values[i] : kAlbedo * bounced_total(share, guess_seen(share), kAlbedo);
-  });
-  return radiosity;
-}
-
-/// What is left of the error of a total beside what A brings.
-double error_for_gathers(double error, double by_sky) {
-  const double aim = kPlanAim * error;
-  return std::sqrt(std::max(aim * aim - by_sky * by_sky, kLeastShare * aim * (kLeastShare * aim)));
-}
 
 /// What the noise of the light that the last gather sees adds to its own, as a share of what as many azimuths
 /// leave by themselves: on bricks 0.5 to 0.7, where along a joint all receivers see it alike, on fractal
@@ -60,9 +43,7 @@ double azimuths_together(int left, int last_azimuths) {
 /// to 16.
 class AzimuthErrors {
  public:
-  AzimuthErrors(const HorizonPilot& pilot, const Map& radiosity) {
-    for (std::size_t i = 0; i < measured_.size(); ++i)
-      measured_[i] = pilot.gather_azimuth_error(2 << static_cast<int>(i), radiosity);
+  AzimuthErrors(const HorizonPilot& pilot, const Map& x) : measured_(pilot.gather_azimuth_errors(x)) {
     if (measured_[3] > 0) order_ = std::clamp(std::log2(measured_[2] / measured_[3]), 0.5, 1.5);
   }
 
@@ -72,7 +53,7 @@ class AzimuthErrors {
   }
 
  private:
-  std::array<double, 4> measured_{};
+  HorizonPilot::AzimuthTrials measured_;
   double order_ = 1;
 };
 
@@ -115,12 +96,13 @@ struct Candidate {
 };
 
 /// With the fewest azimuths that leave no more than the error beside what sampling leaves; if none do, with
-/// the most.
+/// so many that they leave little beside it.
 Candidate choose_azimuths(const AzimuthErrors& errors, double sampled, double wanted, GatherPlan plan) {
   for (const int azimuths : {2, 4, 8, 12, 16, 20, 24, 32, 40, 48, 64}) {
     plan.walk.azimuths = azimuths;
-    plan.error = std::hypot(sampled, azimuths_leave(errors, azimuths), kEndShare * wanted);
-    if (plan.error <= wanted) break;
+    const double few = azimuths_leave(errors, azimuths);
+    plan.error = std::hypot(sampled, few, kEndShare * wanted);
+    if (plan.error <= wanted || (sampled > wanted && few < kLittle * sampled)) break;
   }
   return {plan, gathers_cost(plan.walk.fineness, plan.walk.azimuths)};
 }
@@ -133,19 +115,39 @@ bool is_better(const Candidate& a, const Candidate& b, double wanted) {
 
 }  // namespace
 
-PlannedGather plan_gather(HorizonPilot& pilot, const HeightMips& mips, const Map& sky,
-                          const HorizonGoal& goal, const SkyPlan& sky_plan) {
+/// Radiosity / π at kPlanAlbedo, as the closed form has it. What gathers make of it errs by about as much as
+/// what they make of the true one.
+Map guess_radiosity(const Map& sky) {
+  Map radiosity(sky.width, sky.height);
+  constexpr auto kAlbedo = static_cast<float>(kPlanAlbedo);
+  for_texels(sky, [&](std::size_t i) {
+    const SkyViewFactor<float> share(sky.values[i]);
+    const bool missing = std::isnan(sky.values[i]);
+    radiosity.values[i] =
+        missing ? sky.values[i] : kAlbedo * bounced_total(share, guess_seen(share), kAlbedo);
+  });
+  return radiosity;
+}
+
+/// What is left of the error of a total beside what A brings.
+double error_for_gathers(double error, double by_sky) {
+  const double aim = kTotalAim * error;
+  return std::sqrt(std::max(aim * aim - by_sky * by_sky, kLeastShare * aim * (kLeastShare * aim)));
+}
+
+PlannedGather plan_gather(HorizonPilot& pilot, const HeightMips& mips, double error,
+                          const PlannedSky& planned_sky) {
   PlannedGather planned;
-  planned.plan.walk.peak_share = sky_plan.walk.peak_share;
+  planned.plan.walk.peak_share = planned_sky.plan.walk.peak_share;
   planned.plan.walk.fineness = 16;
   if (pilot.empty()) {
     planned.gather = std::make_unique<MapGather>(pilot.surface(), mips, planned.plan.walk);
     return planned;
   }
+  const Map& sky = planned_sky.sky.sky_view_factor;
   const Map radiosity = guess_radiosity(sky);
-  pilot.see_classes(sky, kPlanAlbedo);
   const AzimuthErrors errors(pilot, radiosity);
-  const double wanted = error_for_gathers(goal.error, pilot.sky_effect(radiosity) * sky_plan.error);
+  const double wanted = error_for_gathers(error, planned_sky.effect);
   Candidate best;
   for (const int fineness : {8, 12, 16, 24, 32, 48, 64}) {
     GatherPlan plan = planned.plan;
@@ -162,8 +164,7 @@ PlannedGather plan_gather(HorizonPilot& pilot, const HeightMips& mips, const Map
     if (sampled <= kFineEnough * wanted) break;
   }
   planned.plan = best.plan;
-  planned.plan.first_bounce_azimuths =
-      choose_bounce_azimuths({pilot, sky}, kBounceShare * kPlanAim * goal.error);
+  planned.plan.first_bounce_azimuths = choose_bounce_azimuths({pilot, sky}, kBounceShare * kTotalAim * error);
   return planned;
 }
 

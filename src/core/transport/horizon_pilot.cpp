@@ -19,14 +19,15 @@ namespace heightlight {
 namespace {
 
 constexpr int kRows = 8;
-constexpr int kColumns = 32;
-constexpr int kExactPerStrip = 10;
+constexpr int kColumns = 16;
+constexpr std::size_t kBlocksPerStrip = 1;
+constexpr std::size_t kExactPerBlock = 5;
 constexpr std::uint64_t kClassesSeed = 1;
 
 /// Strips of a map of that size: bricks and joints take turns, and the larger the map the fewer of them a
 /// strip meets. What the pilot costs grows with the map's side, what it plans with the square.
 std::int64_t strip_count(int width, int height) {
-  constexpr double kStrips = 24;
+  constexpr double kStrips = 48;
   constexpr double kSide = 1024;
   const double side = std::sqrt(static_cast<double>(width) * height);
   return static_cast<std::int64_t>(std::ceil(kStrips * std::max(1.0, side / kSide)));
@@ -48,6 +49,19 @@ std::vector<TileFrame> cut_strips(const Surface& surface) {
     }
   }
   return strips;
+}
+
+/// Receivers that gathers walk together, of a strip.
+TileFrame pick_block(const TileFrame& strip, std::uint64_t pick) {
+  const int down = (strip.rows + kGatherBlockRows - 1) / kGatherBlockRows;
+  const int across = (strip.columns + kGatherBlock - 1) / kGatherBlock;
+  const int i = static_cast<int>(pick % static_cast<std::uint64_t>(down * across));
+  const int row = i / across * kGatherBlockRows;
+  const int column = i % across * kGatherBlock;
+  return {.first_row = strip.first_row + row,
+          .first_column = strip.first_column + column,
+          .rows = std::min(kGatherBlockRows, strip.rows - row),
+          .columns = std::min(kGatherBlock, strip.columns - column)};
 }
 
 double root_mean(double squares, std::size_t count) {
@@ -78,7 +92,8 @@ auto finite_values(const Map& x) {
 }  // namespace
 
 std::uint64_t horizon_pilot_bytes(int width, int height) {
-  const auto receivers = static_cast<std::uint64_t>(strip_count(width, height) * kExactPerStrip);
+  const auto receivers =
+      static_cast<std::uint64_t>(strip_count(width, height)) * kBlocksPerStrip * kExactPerBlock;
   return height_mips_bytes(width, height) +
          receivers * slice_view_bytes(width, height, HorizonPilot::kExactAzimuths);
 }
@@ -104,21 +119,24 @@ HorizonPilot::HorizonPilot(const Surface& surface, std::uint64_t seed, const Wat
     frames_.push_back(strips[static_cast<std::size_t>(
         begin + static_cast<std::int64_t>(pick % static_cast<std::uint64_t>(end - begin)))]);
   }
+  for (std::size_t j = 0; j < frames_.size() * kBlocksPerStrip; ++j)
+    blocks_.push_back(pick_block(frames_[j / kBlocksPerStrip], hash_combine(seed + 2, j)));
   const ExactWalker walker(surface, kExactAzimuths);
-  std::vector<ExactReceiver> receivers(frames_.size() * kExactPerStrip);
+  std::vector<ExactReceiver> receivers(blocks_.size() * kExactPerBlock);
   Progress progress("pilot", static_cast<std::int64_t>(receivers.size()), watch);
   parallel_for(
       static_cast<std::int64_t>(receivers.size()),
       [&](std::int64_t i) {
         ExactReceiver& receiver = receivers[static_cast<std::size_t>(i)];
-        receiver.frame = static_cast<std::size_t>(i) / kExactPerStrip;
-        const TileFrame& frame = frames_[receiver.frame];
+        receiver.block = static_cast<std::size_t>(i) / kExactPerBlock;
+        receiver.frame = receiver.block / kBlocksPerStrip;
+        const TileFrame& block = blocks_[receiver.block];
         const std::uint64_t pick = hash_combine(seed + 1, static_cast<std::uint64_t>(i)) %
-                                   static_cast<std::uint64_t>(frame.rows * frame.columns);
-        receiver.row = static_cast<int>(pick) / frame.columns;
-        receiver.column = static_cast<int>(pick) % frame.columns;
-        const int row = frame.first_row + receiver.row;
-        const int column = frame.first_column + receiver.column;
+                                   static_cast<std::uint64_t>(block.rows * block.columns);
+        const int row = block.first_row + static_cast<int>(pick) / block.columns;
+        const int column = block.first_column + static_cast<int>(pick) % block.columns;
+        receiver.row = row - frames_[receiver.frame].first_row;
+        receiver.column = column - frames_[receiver.frame].first_column;
         walker.view(row, column, receiver.view);
         receiver.view.links.shrink_to_fit();
         receiver.even_sky = sky_by_even_azimuths(walker, surface.normal(row, column), receiver.view);
@@ -127,6 +145,11 @@ HorizonPilot::HorizonPilot(const Surface& surface, std::uint64_t seed, const Wat
   std::erase_if(receivers,
                 [](const ExactReceiver& receiver) { return std::isnan(receiver.view.sky_view_factor); });
   exact_ = std::move(receivers);
+}
+
+std::size_t HorizonPilot::in_strips(const ExactReceiver& receiver) {
+  return receiver.frame * WalkTile::kTexels +
+         static_cast<std::size_t>(receiver.row * TileFrame::kSide + receiver.column);
 }
 
 std::size_t HorizonPilot::texel_of(const ExactReceiver& receiver) const {
@@ -189,8 +212,7 @@ SamplingError HorizonPilot::sampling_error(int fineness, float peak_share) {
   double squares = 0;
   double own = 0;
   for (const ExactReceiver& receiver : exact_) {
-    const std::size_t at = receiver.frame * WalkTile::kTexels +
-                           static_cast<std::size_t>(receiver.row * TileFrame::kSide + receiver.column);
+    const std::size_t at = in_strips(receiver);
     const double error = double{walked[at]} - receiver.view.sky_view_factor;
     const double even_error = double{even.sky[at]} - receiver.even_sky;
     squares += error * error;
@@ -275,47 +297,56 @@ void HorizonPilot::see_classes(const Map& sky, double albedo) {
   }
 }
 
-double HorizonPilot::sky_effect(const Map& x) const {
+double HorizonPilot::sky_effect(const SkyPlan& plan, const Map& x) {
+  assert(seen_.size() == exact_.size());
+  WalkOptions options = plan.walk;
+  options.azimuths = kExactAzimuths;
+  const std::vector<float> walked = walk_sky_of(options);
+  std::vector<FoundError> found = seen_;
   std::vector<double> effects;
-  for (const ExactReceiver& receiver : exact_) {
-    const double share = 1 - receiver.view.sky_view_factor;
+  for (std::size_t i = 0; i < exact_.size(); ++i) {
+    const ExactReceiver& receiver = exact_[i];
+    const double sky = receiver.view.sky_view_factor;
     const double gathered = gather_exactly(receiver.view, surface_, finite_values(x));
-    effects.push_back(share > 0 ? 1 - gathered / share : 0);
+    effects.push_back(sky < 1 ? 1 - gathered / (1 - sky) : 0);
+    found[i].residual = effects.back() * (double{walked[in_strips(receiver)]} - sky);
   }
-  return root_mean_square(effects);
+  double squares = 0;
+  for (const FoundError& error : found) squares += error.residual * error.residual;
+  const double last = root_mean(squares, found.size());
+  const double in_all = root_mean_square(propagate_errors(found));
+  const double few = std::sqrt(std::max(0.0, plan.error * plan.error - plan.sampled * plan.sampled));
+  const double made_of_it = last > 0 ? std::max(1.0, in_all / last) : 1;
+  return std::hypot(in_all, made_of_it * few * root_mean_square(effects));
 }
 
 double HorizonPilot::gather_sampling_error(const MapGather& gather, const FieldPyramid& pyramid,
                                            const Map& x) {
   assert(seen_.size() == exact_.size());
-  std::vector<float> seen(frames_.size() * ReceiverTile::kTexels);
-  const GatherTurn turn{.azimuths = kExactAzimuths};
-  gather.run_on(frames_, turn, {&pyramid},
-                [&](std::size_t strip, const ReceiverTile&, const GatherSums& sums) {
-                  float* out = seen.data() + strip * ReceiverTile::kTexels;
-                  for (std::size_t at = 0; at < ReceiverTile::kTexels; ++at)
-                    out[at] = sums.weight[at] > 0 ? sums.weighted[0][at] / sums.weight[at] : 0;
+  Map seen(surface_.width(), surface_.height());
+  gather.run_on(blocks_, {.azimuths = kExactAzimuths}, {&pyramid},
+                [&](std::size_t, const ReceiverTile& tile, const GatherSums& sums) {
+                  for_present(tile, [&](std::size_t at, int row, int column) {
+                    seen(row, column) = sums.weight[at] > 0 ? sums.weighted[0][at] / sums.weight[at] : 0;
+                  });
                 });
   std::vector<FoundError> found = seen_;
   for (std::size_t i = 0; i < exact_.size(); ++i) {
     const ExactReceiver& receiver = exact_[i];
-    const std::size_t at = receiver.frame * WalkTile::kTexels +
-                           static_cast<std::size_t>(receiver.row * TileFrame::kSide + receiver.column);
     const double surface_share = 1 - receiver.view.sky_view_factor;
-    found[i].residual =
-        surface_share * double{seen[at]} - gather_exactly(receiver.view, surface_, finite_values(x));
+    found[i].residual = surface_share * double{seen.values[texel_of(receiver)]} -
+                        gather_exactly(receiver.view, surface_, finite_values(x));
   }
   return root_mean_square(propagate_errors(found));
 }
 
-double HorizonPilot::gather_azimuth_error(int azimuths, const Map& x) const {
-  assert(azimuths > 0 && kExactAzimuths % azimuths == 0);
+HorizonPilot::AzimuthTrials HorizonPilot::gather_azimuth_errors(const Map& x) const {
   const auto value_of = finite_values(x);
-  std::vector<double> errors;
+  AzimuthTrials squares{};
   for (const ExactReceiver& receiver : exact_) {
     const SliceView& view = receiver.view;
-    std::vector<double> weight(kExactAzimuths);
-    std::vector<double> weighted(kExactAzimuths);
+    std::array<double, kExactAzimuths> weight{};
+    std::array<double, kExactAzimuths> weighted{};
     std::size_t link = 0;
     for (std::size_t k = 0; k < kExactAzimuths; ++k) {
       for (; link < view.links_end[k]; ++link) {
@@ -325,8 +356,6 @@ double HorizonPilot::gather_azimuth_error(int azimuths, const Map& x) const {
     }
     const double own = value_of(texel_of(receiver));
     const double share = 1 - view.sky_view_factor;
-    const int walked = halved_azimuths(azimuths, azimuth_halvings(share));
-    const auto step = static_cast<std::size_t>(kExactAzimuths / walked);
     const auto seen_by = [&](std::size_t first, std::size_t by) {
       double sum = 0;
       double all = 0;
@@ -337,14 +366,19 @@ double HorizonPilot::gather_azimuth_error(int azimuths, const Map& x) const {
       return all > 0 ? sum / all : own;
     };
     const double many = seen_by(0, 1);
-    double squares = 0;
-    for (std::size_t first = 0; first < step; ++first) {
-      const double error = share * (seen_by(first, step) - many);
-      squares += error * error;
+    for (std::size_t trial = 0; trial < kAzimuthTrials; ++trial) {
+      const int walked = halved_azimuths(2 << trial, azimuth_halvings(share));
+      const auto step = static_cast<std::size_t>(kExactAzimuths / walked);
+      double own_squares = 0;
+      for (std::size_t first = 0; first < step; ++first)
+        own_squares += std::pow(share * (seen_by(first, step) - many), 2);
+      squares[trial] += own_squares / static_cast<double>(step);
     }
-    errors.push_back(std::sqrt(squares / static_cast<double>(step)));
   }
-  return root_mean_square(errors);
+  AzimuthTrials errors{};
+  for (std::size_t trial = 0; trial < kAzimuthTrials; ++trial)
+    errors[trial] = root_mean(squares[trial], exact_.size());
+  return errors;
 }
 
 }  // namespace heightlight

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -57,18 +58,21 @@ class HorizonPilot {
   /// gathers can be tried.
   void see_classes(const Map& sky, double albedo);
 
-  /// RMS of what a total changes by for a change of 1 of A: 1 − the mean of x seen, the radiosity. (What
-  /// gathers make of that is little, but where A errs by what neighbours share: on bricks and fractal ground
-  /// totals change by 0.55 to 0.7 of what few azimuths cost A, and up to 0.95 of what sampling does.)
-  double sky_effect(const Map& x) const;
+  /// RMSE that what A errs by brings into a total, when it is walked as planned and x is the radiosity: at
+  /// the last step 1 − the mean of x seen of each error, and what gathers make of it. Along a wall all err
+  /// alike: how much that brings is found from what sampling costs, and taken to be the same for few
+  /// azimuths.
+  double sky_effect(const SkyPlan& plan, const Map& x);
 
   /// RMSE that sampling brings into a total: one gather's, of (1 − A) × the mean of x seen against exact
   /// walks along the same azimuths, and what later gathers make of that. `pyramid` holds x.
   double gather_sampling_error(const MapGather& gather, const FieldPyramid& pyramid, const Map& x);
 
-  /// The same along a few of the azimuths, a divisor of kExactAzimuths in all, against all of them: what few
-  /// azimuths cost a gather, where they are halved as azimuth_halvings says.
-  double gather_azimuth_error(int azimuths, const Map& x) const;
+  /// What 2, 4, 8 and 16 azimuths cost a gather: the same along so many of the exact azimuths, against all of
+  /// them, where they are halved as azimuth_halvings says, and who sees nothing along them sees its like.
+  static constexpr std::size_t kAzimuthTrials = 4;
+  using AzimuthTrials = std::array<double, kAzimuthTrials>;
+  AzimuthTrials gather_azimuth_errors(const Map& x) const;
 
   const Surface& surface() const { return surface_; }
 
@@ -77,6 +81,7 @@ class HorizonPilot {
 
  private:
   struct ExactReceiver {
+    std::size_t block;
     std::size_t frame;  ///< index of its strip
     int row;            ///< in the strip
     int column;
@@ -91,6 +96,8 @@ class HorizonPilot {
   };
 
   std::size_t texel_of(const ExactReceiver& receiver) const;
+  /// Its index in what walk_sky_of returns.
+  static std::size_t in_strips(const ExactReceiver& receiver);
 
   /// A of all receivers of the pilot, strip by strip; −1 where there is none.
   std::vector<float> walk_sky_of(const WalkOptions& options, EvenWalk* even = nullptr);
@@ -102,6 +109,7 @@ class HorizonPilot {
   Watch trial_watch_;  ///< is told nothing, and asked whether to go on
   HeightMips mips_;
   std::vector<TileFrame> frames_;  ///< the strips
+  std::vector<TileFrame> blocks_;  ///< parts of them, some for each, that hold the exact receivers
   std::vector<ExactReceiver> exact_;
   std::vector<FoundError> seen_;  ///< of the exact receivers: without what they find wrong
   WalkOptions many_options_;

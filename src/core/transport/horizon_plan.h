@@ -4,11 +4,13 @@
 
 #include "transport/horizon_pilot.h"
 #include "transport/map_gather.h"
+#include "visibility/horizon_sky.h"
 
 namespace heightlight {
 
-/// Of the error wanted, what a plan aims at: the pilot's sample is small.
-constexpr double kPlanAim = 0.9;
+/// Of the error wanted, what plans aim at: the pilot's sample is small, and misses some of the tails.
+constexpr double kSkyAim = 0.8;
+constexpr double kTotalAim = 0.85;
 
 /// What a plan's walk of the sky costs, K (5 + ν), less where every other azimuth is walked: an azimuth took
 /// 4.3, 5.4, 7.1, 9.1 and 11.5 ns for ν of 8, 12, 16, 24 and 32.
@@ -17,14 +19,30 @@ double sky_cost(const SkyPlan& plan);
 /// How the sky is to be walked.
 SkyPlan plan_sky(HorizonPilot& pilot, const HorizonGoal& goal);
 
+/// Radiosity / π at kPlanAlbedo under the sky, as the closed form has it. What gathers make of it errs by
+/// about as much as what they make of the true one.
+Map guess_radiosity(const Map& sky);
+
+/// A sky as it was walked, and the RMSE of a total at kPlanAlbedo that what A errs by brings.
+struct PlannedSky {
+  SkyPlan plan = {};
+  HorizonSky sky = {};
+  double effect = 0;
+};
+
+/// A total hangs on A by more than A's own error, where that is of one sign along a wall. Where it would take
+/// most of the total's error, A is walked once more, and better than it was wanted.
+PlannedSky find_sky_for_totals(HorizonPilot& pilot, const HeightMips& mips, const HorizonGoal& goal,
+                               const SkyWanted& wanted, const Watch& watch);
+
 /// How gathers are to be walked, and what walks them.
 struct PlannedGather {
   GatherPlan plan = {};
   std::unique_ptr<MapGather> gather = {};
 };
 
-/// Once the sky is known: `sky` is A per texel, found as `sky_plan` has it.
-PlannedGather plan_gather(HorizonPilot& pilot, const HeightMips& mips, const Map& sky,
-                          const HorizonGoal& goal, const SkyPlan& sky_plan);
+/// Once the sky is known; `error` is the RMSE wanted of a total.
+PlannedGather plan_gather(HorizonPilot& pilot, const HeightMips& mips, double error,
+                          const PlannedSky& planned_sky);
 
 }  // namespace heightlight

@@ -84,14 +84,13 @@ PlannedTransport plan_horizon_transport(const Surface& surface, const HorizonGoa
   if (goal.azimuths > 0) check_azimuths(goal.azimuths);
   PlannedTransport planned;
   HorizonPilot pilot(surface, goal.seed, watch);
-  planned.plan.sky = plan_sky(pilot, goal);
   const HeightMips mips = build_height_mips(surface);
-  HorizonSky sky = walk_horizon_sky(surface, mips, planned.plan.sky, {.wanted = wanted}, watch);
-  planned.moments = std::move(sky.moments);
-  PlannedGather gather = plan_gather(pilot, mips, sky.sky_view_factor, goal, planned.plan.sky);
-  planned.plan.gather = gather.plan;
+  PlannedSky sky = find_sky_for_totals(pilot, mips, goal, wanted, watch);
+  PlannedGather gather = plan_gather(pilot, mips, goal.error, sky);
+  planned.plan = {.sky = sky.plan, .gather = gather.plan};
+  planned.moments = std::move(sky.sky.moments);
   planned.transport =
-      std::make_unique<HorizonTransport>(std::move(sky), std::move(gather), goal.error, watch);
+      std::make_unique<HorizonTransport>(std::move(sky.sky), std::move(gather), goal.error, watch);
   return planned;
 }
 

@@ -15,6 +15,9 @@ namespace {
 constexpr int kFewestGathers = 2;
 constexpr int kMostGathers = 64;
 
+/// The first gather tells of what is wrong with the start, the second of what lives longer.
+constexpr int kTellingGathers = 2;
+
 /// Share of the error wanted that ending the gathers may take: less where one more, of few azimuths, costs
 /// little beside the last ones.
 constexpr double ending_share(int last_azimuths) { return last_azimuths < 12 ? 0.6 : 0.4; }
@@ -44,17 +47,29 @@ struct Field {
   double direct(std::size_t i, double sky) const { return system.direct ? (*system.direct)[i] / unit : sky; }
 };
 
+/// Calls visit(i, 1 − A, area) for the receivers of some rows: of large maps those tell as much as all.
+template <class Visit>
+void for_some_receivers(const Map& sky, const Surface& surface, Visit&& visit) {
+  constexpr int kEnoughRows = 256;
+  const int step = std::max(1, sky.height / kEnoughRows);
+  for (int row = 0; row < sky.height; row += step) {
+    const std::size_t begin = sky.index(row, 0);
+    for (std::size_t i = begin; i < begin + static_cast<std::size_t>(sky.width); ++i) {
+      if (!std::isnan(sky.values[i]))
+        visit(i, 1 - double{sky.values[i]}, 1 / double{surface.normal.values[i].z});
+    }
+  }
+}
+
 /// Mean over receivers of 1 − A, weighted by its fourth power and area.
 double deep_surface_share(const Map& sky, const Surface& surface) {
   double sum = 0;
   double weights = 0;
-  for (std::size_t i = 0; i < sky.size(); ++i) {
-    const double share = 1 - double{sky.values[i]};
-    if (std::isnan(share)) continue;
-    const double weight = std::pow(share, 4) / double{surface.normal.values[i].z};
+  for_some_receivers(sky, surface, [&](std::size_t, double share, double area) {
+    const double weight = share * share * share * share * area;
     sum += weight * share;
     weights += weight;
-  }
+  });
   return weights > 0 ? sum / weights : 0;
 }
 
@@ -64,14 +79,12 @@ double seen_spread(const Map& sky, const Surface& surface, Value&& value) {
   double weights = 0;
   double sum = 0;
   double squares = 0;
-  for (std::size_t i = 0; i < sky.size(); ++i) {
-    if (std::isnan(sky.values[i])) continue;
-    const double weight = (1 - double{sky.values[i]}) / double{surface.normal.values[i].z};
+  for_some_receivers(sky, surface, [&](std::size_t i, double share, double area) {
     const double x = value(i);
-    weights += weight;
-    sum += weight * x;
-    squares += weight * x * x;
-  }
+    weights += share * area;
+    sum += share * area * x;
+    squares += share * area * x * x;
+  });
   return weights > 0 ? std::sqrt(std::max(0.0, squares - sum * sum / weights) / weights) : 0;
 }
 
@@ -183,7 +196,8 @@ class GatherStep {
   GatherStep(const MapGather& gather, const Map& sky, const Watch& watch)
       : gather_(gather), sky_(sky), watch_(watch), classes_(gather.surface(), sky.values, kClassesSeed) {}
 
-  std::vector<Change> take(const GatherTurn& turn, const std::vector<Field*>& fields) {
+  /// `tells`: whether anyone wants to know what changes.
+  std::vector<Change> take(const GatherTurn& turn, const std::vector<Field*>& fields, bool tells) {
     std::vector<FieldPyramid> pyramids;
     std::vector<const FieldPyramid*> read;
     for (Field* field : fields) {
@@ -202,7 +216,8 @@ class GatherStep {
           const auto index = static_cast<std::size_t>(tile.first_row / TileFrame::kSide * grid.across +
                                                       tile.first_column / TileFrame::kSide);
           for (std::size_t f = 0; f < fields.size(); ++f)
-            parts[f * tiles + index] = update(tile, sums.weight, sums.weighted[f], *fields[f]);
+            update(tile, sums.weight, sums.weighted[f], *fields[f],
+                   tells ? &parts[f * tiles + index] : nullptr);
         },
         watch_);
     std::vector<Change> changes(fields.size());
@@ -228,9 +243,8 @@ class GatherStep {
     return pyramid;
   }
 
-  Change update(const ReceiverTile& tile, const GatherSums::Values& weight,
-                const GatherSums::Values& weighted, Field& field) const {
-    Change change;
+  void update(const ReceiverTile& tile, const GatherSums::Values& weight, const GatherSums::Values& weighted,
+              Field& field, Change* change) const {
     const auto kept = static_cast<float>(field.kept);
     for_present(tile, [&](std::size_t at, int row, int column) {
       const std::size_t i = sky_.index(row, column);
@@ -244,12 +258,11 @@ class GatherStep {
       const double seen = all > 0 ? double{sum} / double{all} : field.albedo(i) * double{now};
       const double share = double{sky_.values[i]};
       const double next = field.direct(i, share) + (1 - share) * seen;
-      change.add(next - double{now}, classes_.of(share));
+      if (change) change->add(next - double{now}, classes_.of(share));
       const double stepped = double{before} + field.weight * (next - double{before});
       before = now;
       now = static_cast<float>(std::max(stepped, 0.0));
     });
-    return change;
   }
 
   const MapGather& gather_;
@@ -309,9 +322,8 @@ ProgressiveSolution gather_progressively(const MapGather& gather, const Map& sky
         const std::size_t count = std::min(kMostFields, group.size() - first);
         const std::vector<Field*> some(begin_of_some, begin_of_some + static_cast<std::ptrdiff_t>(count));
         for (Field* field : some) next_weight(k, *field);
-        const std::vector<Change> changes = step.take(turn, some);
-        // The first gather tells of what is wrong with the start, the second of what lives longer.
-        for (std::size_t f = 0; k < 2 && f < count; ++f) {
+        const std::vector<Change> changes = step.take(turn, some, k < kTellingGathers);
+        for (std::size_t f = 0; k < kTellingGathers && f < count; ++f) {
           const double change = lasting_change(changes[f], some[f]->system);
           some[f]->gathers =
               plan_gathers(*some[f], change, ending_share(some[f]->last_azimuths) * goal.error, k + 1);

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "transport/horizon_plan.h"
+#include "transport/progressive_gather.h"
 
 namespace heightlight {
 namespace {
@@ -129,7 +130,7 @@ SkyPlan plan_sky(HorizonPilot& pilot, const HorizonGoal& goal) {
   SkyPlan plan;
   if (goal.azimuths > 0) plan.walk.azimuths = goal.azimuths;
   if (pilot.empty()) return plan;
-  const double error = kPlanAim * goal.error * goal.sky_share;
+  const double error = kSkyAim * goal.error * goal.sky_share;
   SamplingError sampling;
   double few = 0;
   plan.walk = choose_sampling(pilot, error, goal.azimuths, sampling);
@@ -144,7 +145,29 @@ SkyPlan plan_sky(HorizonPilot& pilot, const HorizonGoal& goal) {
     if (goal.sky_share == 1) choose_sparse(pilot, rest, plan, few);
   }
   plan.error = std::hypot(sampled, few);
+  plan.sampled = sampled;
   return plan;
+}
+
+PlannedSky find_sky_for_totals(HorizonPilot& pilot, const HeightMips& mips, const HorizonGoal& goal,
+                               const SkyWanted& wanted, const Watch& watch) {
+  constexpr double kMostOfTotal = 0.65;
+  constexpr double kLeastOfError = 0.35;
+  PlannedSky planned;
+  const auto find = [&](const HorizonGoal& aimed) {
+    planned.plan = plan_sky(pilot, aimed);
+    planned.sky = walk_horizon_sky(pilot.surface(), mips, planned.plan, {.wanted = wanted}, watch);
+    pilot.see_classes(planned.sky.sky_view_factor, kPlanAlbedo);
+    planned.effect = pilot.sky_effect(planned.plan, guess_radiosity(planned.sky.sky_view_factor));
+  };
+  find(goal);
+  const double most = kMostOfTotal * kTotalAim * goal.error;
+  if (planned.effect > most && goal.azimuths == 0) {
+    HorizonGoal finer = goal;
+    finer.error *= std::max(kLeastOfError, most / planned.effect);
+    find(finer);
+  }
+  return planned;
 }
 
 }  // namespace heightlight
