@@ -38,8 +38,8 @@ constexpr WalkOptions kFixedWalk{.azimuths = 32, .fineness = 16, .peak_share = 0
 /// What became of one map. Plain, so that it can go through a pipe.
 struct Growth {
   Cost fixed_walk;
-  Cost pilot;   ///< with the choice of how the sky is walked
-  Cost sky;     ///< with its mips
+  Cost pilot;   ///< its exact walks
+  Cost sky;     ///< with its mips, and the choice of how it is walked
   Cost plan;    ///< of the gathers, and the heights that they look at
   Cost totals;  ///< all gathers
   int sky_azimuths = 0;
@@ -81,17 +81,17 @@ Planned plan(const Surface& surface, const Options& options, Growth& growth) {
   goal.error = options.error;
   const Stopwatch pilot_watch;
   HorizonPilot pilot(surface, goal.seed, {});
-  const SkyPlan sky_plan = plan_sky(pilot, goal);
   growth.pilot = pilot_watch.elapsed();
   const Stopwatch sky_watch;
   const HeightMips mips = build_height_mips(surface);
-  Planned planned{.sky = walk_horizon_sky(surface, mips, sky_plan).sky_view_factor, .gather = {}};
+  PlannedSky sky = find_sky_for_totals(pilot, mips, goal, {}, {});
   growth.sky = sky_watch.elapsed();
   const Stopwatch plan_watch;
-  planned.gather = plan_gather(pilot, mips, planned.sky, goal, sky_plan);
+  Planned planned{.sky = {}, .gather = plan_gather(pilot, mips, goal.error, sky)};
   growth.plan = plan_watch.elapsed();
-  growth.sky_azimuths = sky_plan.walk.azimuths;
-  growth.sky_fineness = sky_plan.walk.fineness;
+  planned.sky = std::move(sky.sky.sky_view_factor);
+  growth.sky_azimuths = sky.plan.walk.azimuths;
+  growth.sky_fineness = sky.plan.walk.fineness;
   growth.gather_azimuths = planned.gather.plan.walk.azimuths;
   growth.gather_fineness = planned.gather.plan.walk.fineness;
   return planned;

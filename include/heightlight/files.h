@@ -8,6 +8,7 @@
 
 #include "heightlight/curves.h"
 #include "heightlight/heightmap.h"
+#include "heightlight/transport.h"
 
 // Heightmaps from files, and curves to and from tables: the library heightlight::files, on top of
 // heightlight::core.
@@ -68,6 +69,12 @@ struct LoadedHeightmap {
 /// does not have.
 LoadedHeightmap load_heightmap(const std::filesystem::path& path, const LoadOptions& options,
                                std::uint64_t memory_limit);
+
+/// Writes form factors as a sparse matrix, which scipy.sparse.load_npz reads: compressed rows (`indptr`,
+/// `indices`, `data`), row i for what texel i = row × width + column sees of each texel, and beside it
+/// `sky_view_factor`, so that each row of the matrix and that sum to 1, and `map_shape` (rows, columns). Rows
+/// of missing samples are empty, and 0. Throws Error naming the file.
+void write_form_factors(const std::filesystem::path& path, const FormFactors& form_factors);
 
 /// The first line of `curves.csv`.
 constexpr const char* kCurvesHeader = "ao_kind,bin,ao_lo,ao_hi,ao_mean,count,bounce,mean,stddev,p05,p50,p95";

@@ -30,6 +30,9 @@ class BounceSink {
 
   /// α and A, before the first bounce; both outlive the last one.
   virtual void take_sky(const Map& ambient_occlusion, const Map& sky_view_factor) = 0;
+  /// What carries light from bounce to bounce, before anything bounces: the links of rays and slices, which
+  /// are gone afterwards.
+  virtual void take_links(const FormFactors&) {}
   /// E_b/π, b = 0, 1 … K in order.
   virtual void take_bounce(int b, const TexelVector& irradiance) = 0;
   /// What all later bounces bring together, E/π.

@@ -111,6 +111,16 @@ struct FormFactors : Transport {
   std::uint64_t bytes() const override;
 };
 
+/// What one receiver sees of each texel: F_ij, j rising. The sky's share and the sum of these are 1.
+struct FormFactorRow {
+  std::vector<std::uint64_t> texel;  ///< j
+  std::vector<double> value;         ///< > 0
+};
+
+/// The links of the receiver at (row, column), brought to the texels that they are interpolated from, so that
+/// Σ F_ij x_j is what gather(x) gives it.
+FormFactorRow form_factor_row(const FormFactors& form_factors, int row, int column);
+
 /// What finding links may use, and who watches it.
 struct LinkLimits {
   std::uint64_t memory = ~0ULL;  ///< bytes that links may take
@@ -167,9 +177,9 @@ PlannedTransport plan_horizon_transport(const Surface& surface, const HorizonGoa
 /// What a finished solution errs by, found on some hundred receivers by exact walks (which share no code with
 /// the fast ones). A is compared with their sky. Of the total an exact gather of the same light tells only
 /// what is wrong at its last step, r = direct + F ρ T − T. The error itself, e = r + F ρ e, also has what is
-/// wrong with the light that is gathered. For that, e is taken to depend, but for noise that a gather
-/// averages away, on A alone: its means over receivers of like A are solved for, with the exact walks' form
-/// factors between them.
+/// wrong with the light that is gathered. For that, its means over receivers of like A are solved for, with
+/// the exact walks' form factors between them, and half of what differs from those means is taken to be seen,
+/// too.
 struct HorizonCheck {
   int receivers = 0;
   int azimuths = 0;

@@ -18,6 +18,10 @@ void SimulationSink::take_sky(const Map& ambient_occlusion, const Map& sky_view_
   sky_.emplace(sky_view_factor, AoKind::sky_view_factor, options_.bins);
 }
 
+void SimulationSink::take_links(const FormFactors& form_factors) {
+  if (options_.save_links) write_form_factors(folder_.file("links.npz"), form_factors);
+}
+
 void SimulationSink::take_bounce(int b, const TexelVector& irradiance) {
   alpha_->add(irradiance);
   sky_->add(irradiance);

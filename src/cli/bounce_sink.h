@@ -17,6 +17,7 @@ class SimulationSink : public BounceSink {
   SimulationSink(const Surface& surface, const SimulateOptions& options, StagedFolder& folder);
 
   void take_sky(const Map& ambient_occlusion, const Map& sky_view_factor) override;
+  void take_links(const FormFactors& form_factors) override;
   void take_bounce(int b, const TexelVector& irradiance) override;
   void take_tail(const TexelVector& tail) override;
 

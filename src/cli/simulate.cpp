@@ -55,6 +55,9 @@ void add_simulate_command(CLI::App& app) {
   command->add_option("--bins", options->bins, "AO bins of the curves (100)");
   command->add_flag("--save-bounces", options->save_bounces,
                     "also write irradiance_00.exr, irradiance_01.exr, …");
+  command->add_flag("--save-links", options->save_links,
+                    "with rays or --error 0: also write links.npz, the form factors as scipy.sparse.load_npz "
+                    "reads them");
   add_run_options(*command, options->run);
   command->footer(
       "Examples:\n"

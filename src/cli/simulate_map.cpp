@@ -81,6 +81,9 @@ void write_maps(StagedFolder& folder, const Surface& surface, const Results& res
 
 void check_simulate_options(const SimulateOptions& options) {
   check_visibility_options(options.visibility);
+  const bool has_links = options.visibility.by_rays() || options.visibility.error == 0.0;
+  if (options.save_links && !has_links)
+    throw UsageError("save-links", "", "needs --visibility rays or --error 0: horizon walks store no links");
   if (options.bounces < 1 || options.bounces > 1000) {
     throw UsageError("bounces", std::to_string(options.bounces), "must be from 1 to 1000");
   }

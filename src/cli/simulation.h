@@ -23,6 +23,7 @@ struct SimulateOptions {
   int bins = 100;
   std::string albedo = "0.5";
   bool save_bounces = false;
+  bool save_links = false;
 };
 
 /// Seconds that each step took beside the solution's own.

@@ -15,6 +15,7 @@ std::vector<std::string> simulation_file_names(int bounces) {
   std::vector<std::string> names{"ambient_occlusion.exr",
                                  "sky_view_factor.exr",
                                  "irradiance_total.exr",
+                                 "links.npz",
                                  "curves.csv",
                                  "curves.svg",
                                  "curves.png",

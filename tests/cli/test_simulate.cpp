@@ -80,6 +80,51 @@ TEST_CASE("an albedo image is decoded from sRGB and scales the light that it sen
         read_picture(folder / "out" / "sky_view_factor.exr").values);
 }
 
+TEST_CASE("form factors that are saved bring the first bounce, as scipy reads them", "[cli]") {
+  const ScratchFolder folder;
+  REQUIRE(run_command("synth brick -o b.png --size 24", folder).exit_code == 0);
+  const std::string method = GENERATE("--visibility rays --rays 64", "--error 0 --azimuths 8");
+  const std::string boundary = GENERATE("tile", "open");
+  CAPTURE(method, boundary);
+  REQUIRE(run_command("simulate b.png -o out --save-links --save-bounces --quiet --boundary " + boundary +
+                          " " + method,
+                      folder)
+              .exit_code == 0);
+  write_text(folder / "multiply.py", R"(
+import sys, numpy, scipy.sparse
+links = scipy.sparse.load_npz(sys.argv[1])
+beside = numpy.load(sys.argv[1])
+sky = beside["sky_view_factor"]
+assert links.has_sorted_indices and links.has_canonical_format and links.min() >= 0
+assert tuple(beside["map_shape"]) == (24, 24) and links.shape == (576, 576)
+assert numpy.abs(numpy.asarray(links.sum(axis=1)).ravel() + sky - 1).max() < 1e-12
+(links @ sky).tofile(sys.argv[2])
+)");
+  const std::string python = "/usr/bin/python3 '" + (folder / "multiply.py").string() + "' '" +
+                             (folder / "out" / "links.npz").string() + "' '" + (folder / "product").string() +
+                             "'";
+  REQUIRE(std::system(python.c_str()) == 0);
+  const std::string bytes = read_text(folder / "product");
+  const Picture first = read_picture(folder / "out" / "irradiance_01.exr");
+  REQUIRE(bytes.size() == first.values.size() * sizeof(double));
+  for (std::size_t i = 0; i < first.values.size(); ++i) {
+    double product = 0;
+    std::memcpy(&product, bytes.data() + i * sizeof(double), sizeof(double));
+    REQUIRE(product ==
+            Approx(double{first.values[i]}).epsilon(1e-6).margin(1e-9));  // rounding, single precision
+  }
+}
+
+TEST_CASE("horizon walks have no links to save", "[cli]") {
+  const ScratchFolder folder;
+  REQUIRE(run_command("synth brick -o b.png --size 16", folder).exit_code == 0);
+  const CommandResult run = run_command("simulate b.png -o out --save-links", folder);
+  CHECK(run.exit_code == 2);
+  CHECK(run.error ==
+        "heightlight: --save-links: needs --visibility rays or --error 0: horizon walks store no links\n");
+  CHECK_FALSE(std::filesystem::exists(folder / "out"));
+}
+
 TEST_CASE("one-dimensional and tiny maps simulate", "[cli]") {
   const ScratchFolder folder;
   const auto [name, grid] = GENERATE(

@@ -49,6 +49,11 @@ void find_light(const Task& task, Results& results) {
   Transport& transport = *found.transport;
   describe_operator(found, task, evidence);
   evidence.seconds.visibility += watch.lap();
+  if (const auto* links = dynamic_cast<const FormFactors*>(&transport); links && request.sink) {
+    request.sink->take_links(*links);
+    evidence.seconds.sink += watch.lap();
+  }
+  const double for_links = evidence.seconds.sink;
   if (wanted.bounces > 0 && request.checks.energy) evidence.energy.emplace();
   const TexelVector at_seen_albedo = find_totals(task, transport, results);
   watch.lap();
@@ -59,7 +64,7 @@ void find_light(const Task& task, Results& results) {
     evidence.seen->deep = deep_seen(transport, at_seen_albedo);
   }
   if (wanted.seen) results.seen = solve_seen(transport.sky_view_factor, at_seen_albedo);
-  evidence.seconds.bounces += watch.lap() - evidence.seconds.sink;
+  evidence.seconds.bounces += watch.lap() - (evidence.seconds.sink - for_links);
   if (wanted.seen) results.whole_sky_view_factor = transport.sky_view_factor;
   if (!keeps_sky(wanted)) return;
   results.ambient_occlusion = std::move(transport.ambient_occlusion);

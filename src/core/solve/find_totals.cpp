@@ -57,7 +57,8 @@ void find_again(const Task& task, const std::vector<LightSystem>& systems,
 }
 
 /// Where the check finds that the error wanted is missed, totals are found once more, for a smaller one:
-/// smaller the more it is missed by, and whatever becomes of other totals.
+/// smaller the more it is missed by, and where the albedo has a texture, of which plans know nothing;
+/// whatever becomes of other totals.
 void refine_totals(const Task& task, const std::vector<LightSystem>& systems, Totals& solved,
                    std::vector<HorizonCheck>& checks) {
   constexpr double kByMuch = 1.4;
@@ -66,7 +67,7 @@ void refine_totals(const Task& task, const std::vector<LightSystem>& systems, To
   std::vector<std::size_t> much;
   for (std::size_t i = 0; i < systems.size(); ++i) {
     const double reached = checks[i].total_rmse / wanted;
-    if (reached > kMissed) (reached > kByMuch ? much : little).push_back(i);
+    if (reached > kMissed) (reached > kByMuch || systems[i].varying ? much : little).push_back(i);
   }
   if (!little.empty()) find_again(task, systems, little, 0.7, solved, checks);
   if (!much.empty()) find_again(task, systems, much, 0.5, solved, checks);

@@ -33,13 +33,24 @@ PerClass solve_classes(const std::vector<FoundError>& found) {
 
 }  // namespace
 
-std::vector<double> propagate_errors(const std::vector<FoundError>& found) {
+std::vector<double> propagate_errors(const std::vector<FoundError>& found, double alike) {
   const PerClass mean = solve_classes(found);
+  PerClass count{};
+  PerClass residual{};
+  for (const FoundError& error : found) {
+    count[error.own_class] += 1;
+    residual[error.own_class] += error.residual;
+  }
   std::vector<double> errors;
   for (const FoundError& error : found) {
-    double own = error.residual;
-    for (std::size_t k = 0; k < SkyClasses::kCount; ++k) own += error.seen[k] * mean[k];
-    errors.push_back(own);
+    const double usual = residual[error.own_class] / count[error.own_class];
+    double all_seen = 0;
+    double own = usual;
+    for (std::size_t k = 0; k < SkyClasses::kCount; ++k) {
+      all_seen += error.seen[k];
+      own += error.seen[k] * mean[k];
+    }
+    errors.push_back(own + (error.residual - usual) / (1 - alike * all_seen));
   }
   return errors;
 }

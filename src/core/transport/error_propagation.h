@@ -7,8 +7,9 @@
 #include "transport/sky_classes.h"
 
 // What is wrong with a total in all, e = r + F ρ e, from what some receivers find wrong at the last step, r.
-// They know by exact walks what they see, F. e is taken to depend, but for noise that a gather averages away,
-// on A alone: its means over receivers of like A are solved for.
+// They know by exact walks what they see, F. The means of e over receivers of like A are solved for. Of what
+// differs from these means, what is seen has a share, too: none where it is noise of each receiver by itself,
+// more where a place and what it sees err alike.
 
 namespace heightlight {
 
@@ -19,8 +20,9 @@ struct FoundError {
   SkyClasses::PerClass<double> seen{};  ///< Σ F ρ over the places that it sees, by their class
 };
 
-/// e of each receiver. ρ F must take something from what it gathers.
-std::vector<double> propagate_errors(const std::vector<FoundError>& found);
+/// e of each receiver. ρ F must take something from what it gathers. `alike`: the share of a receiver's
+/// difference from the mean of its class that what it sees has on average.
+std::vector<double> propagate_errors(const std::vector<FoundError>& found, double alike = 0);
 
 /// Σ F ρ over the places of an exact view, by their class; the place's texel stands for it. `albedo(i)` and
 /// `sky(i)` are ρ and A of texel i.

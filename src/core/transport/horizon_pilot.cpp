@@ -131,10 +131,15 @@ HorizonPilot::HorizonPilot(const Surface& surface, std::uint64_t seed, const Wat
         receiver.block = static_cast<std::size_t>(i) / kExactPerBlock;
         receiver.frame = receiver.block / kBlocksPerStrip;
         const TileFrame& block = blocks_[receiver.block];
-        const std::uint64_t pick = hash_combine(seed + 1, static_cast<std::uint64_t>(i)) %
-                                   static_cast<std::uint64_t>(block.rows * block.columns);
-        const int row = block.first_row + static_cast<int>(pick) / block.columns;
-        const int column = block.first_column + static_cast<int>(pick) % block.columns;
+        // One from each of as many equal parts: all of them, where there are no more.
+        const std::uint64_t part = static_cast<std::uint64_t>(i) % kExactPerBlock;
+        const auto texels = static_cast<std::uint64_t>(block.rows * block.columns);
+        const std::uint64_t begin = texels * part / kExactPerBlock;
+        const std::uint64_t end = std::max(begin + 1, texels * (part + 1) / kExactPerBlock);
+        const auto pick =
+            static_cast<int>(begin + hash_combine(seed + 1, static_cast<std::uint64_t>(i)) % (end - begin));
+        const int row = block.first_row + pick / block.columns;
+        const int column = block.first_column + pick % block.columns;
         receiver.row = row - frames_[receiver.frame].first_row;
         receiver.column = column - frames_[receiver.frame].first_column;
         walker.view(row, column, receiver.view);

@@ -1,0 +1,61 @@
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "heightlight/transport.h"
+
+namespace heightlight {
+namespace {
+
+struct Entry {
+  std::uint64_t texel;
+  double value;
+};
+
+/// What a link gives the corners of its facet: those weigh as a linear function on it is interpolated.
+void add_link(const FormFactors& form_factors, const Link& link, double weight, std::vector<Entry>& entries) {
+  const auto width = static_cast<std::uint64_t>(form_factors.width);
+  const auto height = static_cast<std::uint64_t>(form_factors.height);
+  const std::uint64_t row = link.cell / (width + 1);
+  const std::uint64_t column = link.cell % (width + 1);
+  const double across = link.across / 255.0;
+  const double down = link.down / 255.0;
+  const double both = std::min(across, down);
+  const auto add = [&](std::uint64_t below, std::uint64_t right, double share) {
+    if (share > 0)
+      entries.push_back({(row + below) % height * width + (column + right) % width, weight * share});
+  };
+  add(0, 0, 1 - std::max(across, down));
+  add(0, 1, across - both);
+  add(1, 0, down - both);
+  add(1, 1, both);
+}
+
+}  // namespace
+
+FormFactorRow form_factor_row(const FormFactors& form_factors, int row, int column) {
+  assert(row >= 0 && row < form_factors.height && column >= 0 && column < form_factors.width);
+  const LinkRow& line = form_factors.rows[static_cast<std::size_t>(row)];
+  const auto j = static_cast<std::size_t>(column);
+  std::vector<Entry> entries;
+  for (std::uint64_t k = line.begin[j]; k < line.begin[j + 1]; ++k) {
+    const Link& link = line.links[k];
+    const double weight = form_factors.ray_weights.empty()
+                              ? line.weights[k]
+                              : form_factors.ray_weights[line.weight_table[j]][link.weight];
+    add_link(form_factors, link, weight, entries);
+  }
+  std::stable_sort(entries.begin(), entries.end(),
+                   [](const Entry& a, const Entry& b) { return a.texel < b.texel; });
+  FormFactorRow result;
+  for (const Entry& entry : entries) {
+    if (result.texel.empty() || result.texel.back() != entry.texel) {
+      result.texel.push_back(entry.texel);
+      result.value.push_back(0);
+    }
+    result.value.back() += entry.value;
+  }
+  return result;
+}
+
+}  // namespace heightlight
