@@ -302,27 +302,14 @@ void HorizonPilot::see_classes(const Map& sky, double albedo) {
   }
 }
 
-double HorizonPilot::sky_effect(const SkyPlan& plan, const Map& x) {
-  assert(seen_.size() == exact_.size());
-  WalkOptions options = plan.walk;
-  options.azimuths = kExactAzimuths;
-  const std::vector<float> walked = walk_sky_of(options);
-  std::vector<FoundError> found = seen_;
+double HorizonPilot::sky_effect(const Map& x) const {
   std::vector<double> effects;
-  for (std::size_t i = 0; i < exact_.size(); ++i) {
-    const ExactReceiver& receiver = exact_[i];
-    const double sky = receiver.view.sky_view_factor;
+  for (const ExactReceiver& receiver : exact_) {
+    const double share = 1 - receiver.view.sky_view_factor;
     const double gathered = gather_exactly(receiver.view, surface_, finite_values(x));
-    effects.push_back(sky < 1 ? 1 - gathered / (1 - sky) : 0);
-    found[i].residual = effects.back() * (double{walked[in_strips(receiver)]} - sky);
+    effects.push_back(share > 0 ? 1 - gathered / share : 0);
   }
-  double squares = 0;
-  for (const FoundError& error : found) squares += error.residual * error.residual;
-  const double last = root_mean(squares, found.size());
-  const double in_all = root_mean_square(propagate_errors(found));
-  const double few = std::sqrt(std::max(0.0, plan.error * plan.error - plan.sampled * plan.sampled));
-  const double made_of_it = last > 0 ? std::max(1.0, in_all / last) : 1;
-  return std::hypot(in_all, made_of_it * few * root_mean_square(effects));
+  return root_mean_square(effects);
 }
 
 double HorizonPilot::gather_sampling_error(const MapGather& gather, const FieldPyramid& pyramid,

@@ -58,11 +58,9 @@ class HorizonPilot {
   /// gathers can be tried.
   void see_classes(const Map& sky, double albedo);
 
-  /// RMSE that what A errs by brings into a total, when it is walked as planned and x is the radiosity: at
-  /// the last step 1 − the mean of x seen of each error, and what gathers make of it. Along a wall all err
-  /// alike: how much that brings is found from what sampling costs, and taken to be the same for few
-  /// azimuths.
-  double sky_effect(const SkyPlan& plan, const Map& x);
+  /// RMS of what a total changes by at the last step for a change of 1 of A: 1 − the mean of x seen, the
+  /// radiosity.
+  double sky_effect(const Map& x) const;
 
   /// RMSE that sampling brings into a total: one gather's, of (1 − A) × the mean of x seen against exact
   /// walks along the same azimuths, and what later gathers make of that. `pyramid` holds x.
