@@ -31,8 +31,10 @@ LoadedHeightmap load_input(const SimulateOptions& options) {
 }
 
 /// What the sink, the albedo and the totals as maps hold beside the solution.
-std::uint64_t bytes_held(const Surface& surface, const Albedo& albedo) {
-  const std::uint64_t per_texel = SimulationSink::bytes_per_texel() +
+std::uint64_t bytes_held(const SimulateOptions& options, const Surface& surface, const Albedo& albedo) {
+  const std::uint64_t ends =
+      options.save_links ? sizeof(std::int64_t) : 0;  // of rows, while links are written
+  const std::uint64_t per_texel = ends + SimulationSink::bytes_per_texel() +
                                   albedo.channels() * sizeof(Map::value_type) +
                                   albedo.varying.size() * sizeof(TexelVector::value_type);
   return surface.map.height.size() * per_texel;
@@ -40,7 +42,7 @@ std::uint64_t bytes_held(const Surface& surface, const Albedo& albedo) {
 
 /// What the solution may take: the limit less that.
 std::uint64_t memory_to_solve(const SimulateOptions& options, const Surface& surface, const Albedo& albedo) {
-  const std::uint64_t own = bytes_held(surface, albedo);
+  const std::uint64_t own = bytes_held(options, surface, albedo);
   if (own < options.run.memory) return options.run.memory - own;
   throw MemoryError("simulating " + std::to_string(surface.width()) + " × " +
                     std::to_string(surface.height()) + " texels needs more than " + format_byte_size(own) +
@@ -115,7 +117,7 @@ Simulation simulate_map(const SimulateOptions& options, const Watch& watch) {
     return solve(surface, request);
   });
   simulation.evidence = results.evidence;
-  simulation.evidence.estimated_bytes += bytes_held(surface, albedo);
+  simulation.evidence.estimated_bytes += bytes_held(options, surface, albedo);
   lap.lap();
   write_curves(folder, options, surface, sink.curves(), watch);
   seconds.curves = results.evidence.seconds.sink + lap.lap();

@@ -144,6 +144,21 @@ TEST_CASE("what a gather sees weighs what the sky's walk leaves of the hemispher
   }
 }
 
+TEST_CASE("turns are even whatever azimuths are left out", "[transport][gather]") {
+  for (int gathers = 3; gathers <= 12; ++gathers) {
+    for (int halvings = 0; halvings <= kMostHalvings; ++halvings) {
+      std::vector<double> turns;  // in steps of those that are walked
+      for (int k = 1; k <= gathers; ++k)
+        turns.push_back(std::fmod(spread_turn(k) / std::ldexp(1, halvings), 1.0));
+      std::sort(turns.begin(), turns.end());
+      double gap = turns.front() + 1 - turns.back();
+      for (std::size_t i = 1; i < turns.size(); ++i) gap = std::max(gap, turns[i] - turns[i - 1]);
+      INFO(gathers << " gathers, halved " << halvings << " times");
+      CHECK(gap < 2.0 / gathers);
+    }
+  }
+}
+
 TEST_CASE("a field that is the same everywhere is gathered as it is", "[transport][gather]") {
   const auto [name, map] = ground(GENERATE(range(0, kGrounds)));
   const int fineness = GENERATE(8, 32);

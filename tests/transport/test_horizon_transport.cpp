@@ -11,6 +11,7 @@
 #include "heightlight/error.h"
 #include "heightlight/transport.h"
 #include "test_maps.h"
+#include "transport/bounce_check.h"
 #include "transport/exact_gather.h"
 #include "transport/root_mean_square.h"
 #include "transport/simulated.h"
@@ -253,6 +254,48 @@ TEST_CASE("bounces of horizon walks come near those of exact slices, and bring n
   CHECK(as_eigen(walked.series.sum).maxCoeff() < 1 + 1e-6);  // rounding, single precision
 }
 
+TEST_CASE("where light falls fast, noise of one bounce is not taken from the next", "[transport][horizon]") {
+  const Heightmap map = make_synth_map("fbm", 96, Boundary::tile, 0.1);
+  constexpr int kLast = 4;
+  const Simulated exact = simulate_map(map, by_exact_slices(128), kLast);
+  const Surface surface = build_surface(map);
+  const PlannedTransport planned = plan_horizon_transport(surface, {.error = 0.002});
+  std::vector<TexelVector> bounces;
+  BounceCheck check(surface, planned.transport->direct, 1, {});
+  std::vector<double> said;
+  bounce(*planned.transport, surface, kLast, [&](int, const TexelVector& irradiance) {
+    bounces.push_back(irradiance);
+    said.push_back(check.take(irradiance));
+  });
+  for (std::size_t b = 1; b <= kLast; ++b) {
+    const double mean = as_eigen(exact.bounces[b]).mean();
+    const double error = rms(as_eigen(bounces[b]) - as_eigen(exact.bounces[b]));
+    INFO("bounce " << b << ": mean " << as_eigen(bounces[b]).mean() / mean << " of what it is, error "
+                   << error << ", said " << said[b]);
+    // Cut to what is left over by the ones before, the third and fourth had a half and a third of their
+    // light.
+    CHECK(as_eigen(bounces[b]).mean() == Approx(mean).epsilon(0.1));
+    // discretisation: few azimuths (measured: 0.03, 0.14, 0.2 and 0.3 of the mean)
+    CHECK(error < (b == 1 ? 0.06 : 0.5) * mean);
+    // Monte Carlo: 128 receivers, the later the fewer of which see most of what is wrong
+    CHECK(said[b] == Approx(error).epsilon(b < 3 ? 0.3 : 0.6));
+  }
+}
+
+TEST_CASE("bounces do not hang on single rows of the map", "[transport][horizon]") {
+  // Every fourth row is missing, as a sample of rows might meet.
+  const Heightmap map = make_map(12, 12, Boundary::tile, [](int row, int column) {
+    return row % 4 == 0 ? std::nan("")
+                        : 3 * unit_real(hash_combine(1, static_cast<std::uint64_t>(12 * row + column)));
+  });
+  const Simulated walked = simulate_map(map, by_horizon_walks(), 6);
+  const Simulated exact = simulate_map(map, by_exact_slices(64), 6);
+  for (std::size_t b = 1; b <= 6; ++b) {
+    INFO("bounce " << b);
+    CHECK(as_eigen(walked.bounces[b]).sum() == Approx(as_eigen(exact.bounces[b]).sum()).epsilon(0.2));
+  }
+}
+
 TEST_CASE("numbers of azimuths outside their range are refused", "[transport][horizon]") {
   const Surface surface = build_surface(make_map(4, 4, Boundary::tile, [](int, int) { return 0; }));
   for (const int azimuths : {-2, 0, 1, 7, 65538}) {
@@ -260,8 +303,11 @@ TEST_CASE("numbers of azimuths outside their range are refused", "[transport][ho
     const WalkOptions bad{.azimuths = azimuths, .fineness = 8};
     const HorizonPlan bad_sky{.sky = {.walk = bad}, .gather = {.walk = good}};
     const HorizonPlan bad_gather{.sky = {.walk = good}, .gather = {.walk = bad}};
+    const HorizonPlan bad_bounce{.sky = {.walk = good},
+                                 .gather = {.walk = good, .first_bounce_azimuths = azimuths}};
     CHECK_THROWS_AS(build_horizon_transport(surface, bad_sky), UsageError);
     CHECK_THROWS_AS(build_horizon_transport(surface, bad_gather), UsageError);
+    CHECK_THROWS_AS(build_horizon_transport(surface, bad_bounce), UsageError);
   }
   const auto plan = [&](const HorizonGoal& goal) { plan_horizon_transport(surface, goal); };
   CHECK_THROWS_AS(plan({.error = 0}), UsageError);

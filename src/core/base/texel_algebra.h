@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 
 #include "heightlight/image.h"
 
@@ -19,6 +21,15 @@ inline Eigen::Map<Eigen::VectorXd> as_eigen(TexelVector& values) {
 inline Eigen::Vector3f as_eigen(const Vector3& vector) { return {vector.x, vector.y, vector.z}; }
 
 inline Vector3 to_vector3(const Eigen::Vector3f& vector) { return {vector.x(), vector.y(), vector.z()}; }
+
+/// The largest power of two that the largest |x| reaches, within 2^±1000; 1 where all is 0. In units of it
+/// single precision holds whatever double does, and dividing by it loses no bit.
+inline double unit_of(const TexelVector& x) {
+  const double largest = x.empty() ? 0 : as_eigen(x).cwiseAbs().maxCoeff();
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  return largest > 0 ? std::ldexp(1.0, std::clamp(exponent - 1, -1000, 1000)) : 1;
+}
 
 /// What an expression comes to.
 template <class Expression>

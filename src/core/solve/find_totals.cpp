@@ -39,38 +39,43 @@ std::vector<HorizonCheck> check_totals(const Task& task, const Transport& transp
                                .watch = task.request.watch});
 }
 
+/// Totals, and what they err by, per system.
+struct Checked {
+  Totals& totals;
+  std::vector<HorizonCheck> checks;
+};
+
 /// Finds those of the totals once more whose numbers are given, for a share of the error wanted.
 void find_again(const Task& task, const std::vector<LightSystem>& systems,
-                const std::vector<std::size_t>& which, double share, Totals& solved,
-                std::vector<HorizonCheck>& checks) {
+                const std::vector<std::size_t>& which, double share, Checked& checked) {
   std::vector<LightSystem> again;
   for (const std::size_t i : which) again.push_back(systems[i]);
   const PlannedTransport finer = find_operator(task, share * task.request.accuracy.error, {});
   Totals found = finer.transport->solve(again, task.request.watch);
   const std::vector<HorizonCheck> found_checks = check_totals(task, *finer.transport, again, found);
   for (std::size_t k = 0; k < which.size(); ++k) {
-    solved.irradiance[which[k]] = std::move(found.irradiance[k]);
-    checks[which[k]].total_rmse = found_checks[k].total_rmse;
-    checks[which[k]].total_standard_error = found_checks[k].total_standard_error;
+    checked.totals.irradiance[which[k]] = std::move(found.irradiance[k]);
+    checked.checks[which[k]].total_rmse = found_checks[k].total_rmse;
+    checked.checks[which[k]].total_standard_error = found_checks[k].total_standard_error;
   }
-  solved.gathers = std::max(solved.gathers, found.gathers);
+  checked.totals.gathers = std::max(checked.totals.gathers, found.gathers);
 }
 
 /// Where the check finds that the error wanted is missed, totals are found once more, for a smaller one:
 /// smaller the more it is missed by, and where the albedo has a texture, of which plans know nothing;
-/// whatever becomes of other totals.
-void refine_totals(const Task& task, const std::vector<LightSystem>& systems, Totals& solved,
-                   std::vector<HorizonCheck>& checks) {
+/// whatever becomes of other totals. Whether any was.
+bool refine_totals(const Task& task, const std::vector<LightSystem>& systems, Checked& checked) {
   constexpr double kByMuch = 1.4;
   const double wanted = task.request.accuracy.error;
   std::vector<std::size_t> little;
   std::vector<std::size_t> much;
   for (std::size_t i = 0; i < systems.size(); ++i) {
-    const double reached = checks[i].total_rmse / wanted;
+    const double reached = checked.checks[i].total_rmse / wanted;
     if (reached > kMissed) (reached > kByMuch || systems[i].varying ? much : little).push_back(i);
   }
-  if (!little.empty()) find_again(task, systems, little, 0.7, solved, checks);
-  if (!much.empty()) find_again(task, systems, much, 0.5, solved, checks);
+  if (!little.empty()) find_again(task, systems, little, 0.7, checked);
+  if (!much.empty()) find_again(task, systems, much, 0.5, checked);
+  return !little.empty() || !much.empty();
 }
 
 /// The channel of each albedo that errs most stands for it.
@@ -91,18 +96,15 @@ void check_and_refine(const Task& task, const Transport& transport, std::vector<
   std::size_t wanted = 0;
   for (const Albedo& albedo : request.wanted.totals) wanted += albedo.channels();
   systems.resize(wanted);
-  std::vector<HorizonCheck> checks = check_totals(task, transport, systems, solved);
-  if (checks[0].receivers == 0) return;
+  Checked checked{.totals = solved, .checks = check_totals(task, transport, systems, solved)};
+  if (checked.checks[0].receivers == 0) return;
   const Surface& surface = task.surface;
   const bool may_refine =
       request.accuracy.visibility == Visibility::horizon_walks && !request.accuracy.plan &&
       refinement_bytes(surface.width(), surface.height(), request.wanted) <= task.free_memory;
-  const std::vector<HorizonCheck> first = checks;
-  if (may_refine) refine_totals(task, systems, solved, checks);
-  for (std::size_t i = 0; i < wanted; ++i)
-    evidence.refined = evidence.refined || checks[i].total_rmse != first[i].total_rmse;
-  evidence.sky_rmse = checks[0].sky_rmse;
-  keep_worst_channels(request.wanted, checks, evidence);
+  evidence.refined = may_refine && refine_totals(task, systems, checked);
+  evidence.sky_rmse = checked.checks[0].sky_rmse;
+  keep_worst_channels(request.wanted, checked.checks, evidence);
 }
 
 }  // namespace

@@ -66,6 +66,7 @@ std::uint64_t estimate_memory(int width, int height, const Request& request) {
       const std::uint64_t fields = std::min<std::uint64_t>(
           kMostFields, channels_of(wanted.totals) + (wanted.seen || wanted.bounces > 0 ? 1 : 0));
       pyramids += gather_bytes(width, height, fields);
+      if (wanted.bounces > 0) pyramids += gather_bytes(width, height, 0);  // bounces may look more closely
     }
     if (wanted.bounces > 0 && request.checks.bounces) pyramids += BounceCheck::bytes(width, height);
     if (wanted.reach && (wanted.sky || wanted.moments.first)) per_texel += horizon_sky_bytes({});

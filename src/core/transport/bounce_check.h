@@ -12,12 +12,13 @@ namespace heightlight {
 /// r = E_b − F E_{b−1}, and e_b = r + F e_{b−1} as error_propagation.h has it.
 class BounceCheck {
  public:
-  /// `direct` is A per texel, as found; `seed` picks the receivers. Both must outlive it.
+  /// `direct` is A per texel, as found; `seed` picks the receivers. The surface must outlive it.
   BounceCheck(const Surface& surface, const TexelVector& direct, std::uint64_t seed, const Watch& watch);
 
   /// RMSE of E_b/π, for b = 0, 1, 2 …, one after the other. 0 where there is no receiver.
   double take(const TexelVector& bounce);
 
+  /// What it holds on a map of that size.
   static std::uint64_t bytes(int width, int height);
 
  private:

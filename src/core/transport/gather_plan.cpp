@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "base/texels.h"
-#include "heightlight/forms.h"
 #include "transport/horizon_plan.h"
 #include "transport/progressive_gather.h"
 
@@ -113,26 +112,21 @@ bool is_better(const Candidate& a, const Candidate& b, double wanted) {
   return meets ? a.cost < b.cost : a.plan.error < kWorthFiner * b.plan.error;
 }
 
-}  // namespace
-
-/// Radiosity / π at kPlanAlbedo, as the closed form has it. What gathers make of it errs by about as much as
-/// what they make of the true one.
-Map guess_radiosity(const Map& sky) {
-  Map radiosity(sky.width, sky.height);
-  constexpr auto kAlbedo = static_cast<float>(kPlanAlbedo);
-  for_texels(sky, [&](std::size_t i) {
-    const SkyViewFactor<float> share(sky.values[i]);
-    const bool missing = std::isnan(sky.values[i]);
-    radiosity.values[i] =
-        missing ? sky.values[i] : kAlbedo * bounced_total(share, guess_seen(share), kAlbedo);
-  });
-  return radiosity;
-}
-
 /// What is left of the error of a total beside what A brings.
 double error_for_gathers(double error, double by_sky) {
   const double aim = kTotalAim * error;
   return std::sqrt(std::max(aim * aim - by_sky * by_sky, kLeastShare * aim * (kLeastShare * aim)));
+}
+
+}  // namespace
+
+Map guess_radiosity(const Map& sky) {
+  Map radiosity(sky.width, sky.height);
+  for_texels(sky, [&](std::size_t i) {
+    const double guessed = kPlanAlbedo * guess_total(double{sky.values[i]}, kPlanAlbedo);
+    radiosity.values[i] = std::isnan(sky.values[i]) ? sky.values[i] : static_cast<float>(guessed);
+  });
+  return radiosity;
 }
 
 PlannedGather plan_gather(HorizonPilot& pilot, const HeightMips& mips, double error,

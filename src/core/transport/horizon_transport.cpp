@@ -71,6 +71,7 @@ std::unique_ptr<Transport> build_horizon_transport(const Surface& surface, const
   if (!(error > 0)) throw UsageError("error", std::to_string(error), "must be positive");
   check_azimuths(plan.sky.walk.azimuths);
   check_azimuths(plan.gather.walk.azimuths);
+  check_azimuths(plan.gather.first_bounce_azimuths);
   const HeightMips mips = build_height_mips(surface);
   HorizonSky sky = walk_horizon_sky(surface, mips, plan.sky, {}, watch);
   PlannedGather planned{.plan = plan.gather,

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <map>
 
+#include "base/texel_algebra.h"
 #include "base/texels.h"
 #include "heightlight/forms.h"
+#include "transport/seen_places.h"
 #include "transport/sky_classes.h"
 
 namespace heightlight {
@@ -40,32 +42,18 @@ struct Field {
   double azimuths = 0;  ///< in N and W, as they weigh there
   double kept = 0;      ///< share of N and W that the gather to come keeps
 
-  double unit = 1;  ///< of its light: unit_of
+  double unit = 1;  ///< of its light
 
   double albedo(std::size_t i) const { return system.varying ? (*system.varying)[i] : system.albedo; }
   /// E₀/π in units, of a receiver with the sky's share A.
   double direct(std::size_t i, double sky) const { return system.direct ? (*system.direct)[i] / unit : sky; }
 };
 
-/// Calls visit(i, 1 − A, area) for the receivers of some rows: of large maps those tell as much as all.
-template <class Visit>
-void for_some_receivers(const Map& sky, const Surface& surface, Visit&& visit) {
-  constexpr int kEnoughRows = 256;
-  const int step = std::max(1, sky.height / kEnoughRows);
-  for (int row = 0; row < sky.height; row += step) {
-    const std::size_t begin = sky.index(row, 0);
-    for (std::size_t i = begin; i < begin + static_cast<std::size_t>(sky.width); ++i) {
-      if (!std::isnan(sky.values[i]))
-        visit(i, 1 - double{sky.values[i]}, 1 / double{surface.normal.values[i].z});
-    }
-  }
-}
-
 /// Mean over receivers of 1 − A, weighted by its fourth power and area.
 double deep_surface_share(const Map& sky, const Surface& surface) {
   double sum = 0;
   double weights = 0;
-  for_some_receivers(sky, surface, [&](std::size_t, double share, double area) {
+  for_seen_places(sky, surface, [&](std::size_t, double share, double area) {
     const double weight = share * share * share * share * area;
     sum += weight * share;
     weights += weight;
@@ -79,7 +67,7 @@ double seen_spread(const Map& sky, const Surface& surface, Value&& value) {
   double weights = 0;
   double sum = 0;
   double squares = 0;
-  for_some_receivers(sky, surface, [&](std::size_t i, double share, double area) {
+  for_seen_places(sky, surface, [&](std::size_t i, double share, double area) {
     const double x = value(i);
     weights += share * area;
     sum += share * area * x;
@@ -93,26 +81,15 @@ double highest_albedo(const LightSystem& system) {
   return *std::max_element(system.varying->begin(), system.varying->end());
 }
 
-/// The largest power of two that the brightest direct light reaches; 1 under the sky.
-double unit_of(const LightSystem& system) {
-  if (!system.direct) return 1;
-  const double brightest = *std::max_element(system.direct->begin(), system.direct->end());
-  int exponent = 0;
-  std::frexp(brightest, &exponent);
-  return brightest > 0 ? std::ldexp(1.0, std::clamp(exponent, -1000, 1000) - 1) : 1;
-}
-
 /// Under the sky the closed form G with n guessed from A; light of one's own, in units, before it bounces.
 Map start(const LightSystem& system, const Map& sky, double unit) {
   Map irradiance(sky.width, sky.height);
   for_texels(sky, [&](std::size_t i) {
     const double albedo = system.varying ? (*system.varying)[i] : system.albedo;
-    const SkyViewFactor<double> share(double{sky.values[i]});
     const bool missing = std::isnan(sky.values[i]);
-    irradiance.values[i] = missing ? sky.values[i]
-                           : system.direct
-                               ? static_cast<float>((*system.direct)[i] / unit)
-                               : static_cast<float>(bounced_total(share, guess_seen(share), albedo));
+    irradiance.values[i] = missing         ? sky.values[i]
+                           : system.direct ? static_cast<float>((*system.direct)[i] / unit)
+                                           : static_cast<float>(guess_total(double{sky.values[i]}, albedo));
   });
   return irradiance;
 }
@@ -120,7 +97,7 @@ Map start(const LightSystem& system, const Map& sky, double unit) {
 Field begin(const LightSystem& system, const Map& sky, double deep_share) {
   Field field{.system = system};
   field.kappa = highest_albedo(system) * deep_share;
-  field.unit = unit_of(system);
+  field.unit = system.direct ? unit_of(*system.direct) : 1;
   field.irradiance = start(system, sky, field.unit);
   field.before = field.irradiance;
   field.weighted = Map(sky.width, sky.height);
@@ -282,6 +259,11 @@ TexelVector take_irradiance(const Field& field) {
 
 }  // namespace
 
+double guess_total(double sky, double albedo) {
+  const SkyViewFactor<double> share(sky);
+  return bounced_total(share, guess_seen(share), albedo);
+}
+
 int gather_azimuths(int left, int last_azimuths) {
   constexpr int kFewest = 4;
   const int part = left <= 2 ? 1 : left == 3 ? 2 : 4;
@@ -297,8 +279,7 @@ ProgressiveSolution gather_progressively(const MapGather& gather, const Map& sky
   std::vector<Field> fields;
   const Surface& surface = gather.surface();
   const double planned_for = seen_spread(sky, surface, [&](std::size_t i) {
-    const SkyViewFactor<double> share(double{sky.values[i]});
-    return kPlanAlbedo * bounced_total(share, guess_seen(share), kPlanAlbedo);
+    return kPlanAlbedo * guess_total(double{sky.values[i]}, kPlanAlbedo);
   });
   for (const LightSystem& system : systems) {
     Field& field = fields.emplace_back(begin(system, sky, deep_share));

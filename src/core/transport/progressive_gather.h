@@ -36,8 +36,8 @@ struct ProgressiveSolution {
 
 /// How far a solution is to go.
 struct ProgressiveGoal {
-  double error =
-      0.002;  ///< RMSE wanted in all, in units of the brightest light, of which ending may leave half
+  double error = 0.002;  ///< RMSE wanted in all, in units of the brightest light, of which ending may leave
+                         ///< up to 0.6
   int last_azimuths =
       8;  ///< of each of the last two gathers; the third last has half of them, others a quarter. They
           ///< are planned for the sky's light at kPlanAlbedo: more uneven radiosity gets more
@@ -49,6 +49,9 @@ constexpr double kPlanAlbedo = 0.8;
 /// λ of the azimuths walked before, by what they are together: what the steps between gathers bring is known
 /// from few azimuths. (On bricks 0.3 is as good, 1 half as good again.)
 constexpr double kFading = 0.6;
+
+/// The closed form that gathers start from, E/π of a place with the sky view factor A.
+double guess_total(double sky, double albedo);
 
 /// Azimuths of a gather when so many are left, itself among them.
 int gather_azimuths(int left, int last_azimuths);

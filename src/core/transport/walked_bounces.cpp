@@ -1,13 +1,12 @@
 #include "transport/walked_bounces.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "base/parallel.h"
 #include "base/texel_algebra.h"
 #include "base/texels.h"
 #include "transport/progressive_gather.h"
+#include "transport/seen_places.h"
 
 namespace heightlight {
 namespace {
@@ -25,16 +24,6 @@ constexpr int kFewestAnywhere = 2;
 
 /// A field whose square varies by less than this share is one value.
 constexpr double kOneValue = 1e-12;
-
-/// Rows from one to the next that fields are compared on.
-constexpr int kRowStep = 4;
-
-/// A power of two near the brightest light: what single precision holds is in units of it.
-double unit_of(const TexelVector& x) {
-  int exponent = 0;
-  std::frexp(as_eigen(x).cwiseAbs().maxCoeff(), &exponent);
-  return std::ldexp(1.0, std::max(exponent, -1000));
-}
 
 }  // namespace
 
@@ -67,40 +56,33 @@ TexelVector WalkedBounces::next(const TexelVector& last, const TexelVector& sum)
 }
 
 TexelVector WalkedBounces::follow(const TexelVector& field, const Likeness& likeness) {
-  const bool negligible = bounce_ > 2 && likeness.size < kNegligible * walk_.error;
+  // Where nothing was walked before, the field before is another one, and tells no ratio.
+  const bool negligible = azimuths_ > 0 && likeness.size < kNegligible * walk_.error;
   TexelVector next = negligible ? to_texels(likeness.ratio * as_eigen(field)) : walk(field, likeness);
   before_ = field;
   mean_before_ = likeness.mean;
   return next;
 }
 
-/// Row by row, so that sums are the same for any number of threads.
 WalkedBounces::Likeness WalkedBounces::compare_with_before(const TexelVector& field) const {
-  const Map& sky = transport_.sky_view_factor;
-  const Image<Vector3>& normal = gather_->surface().normal;
-  using Sums = Eigen::Matrix<double, 6, 1>;
-  std::vector<Sums> rows(static_cast<std::size_t>((sky.height + kRowStep - 1) / kRowStep));
-  parallel_for(static_cast<std::int64_t>(rows.size()), [&](std::int64_t row) {
-    Sums sums = Sums::Zero();
-    const std::size_t begin = sky.index(static_cast<int>(row) * kRowStep, 0);
-    for (std::size_t i = begin; i < begin + static_cast<std::size_t>(sky.width); ++i) {
-      if (std::isnan(sky.values[i])) continue;
-      const double weight = (1 - transport_.direct[i]) / double{normal.values[i].z};
-      const double x = field[i];
-      const double y = before_[i];
-      sums += weight * Sums{1, x, y, x * x, x * y, y * y};
-    }
-    rows[static_cast<std::size_t>(row)] = sums;
-  });
-  Sums sums = Sums::Zero();
-  for (const Sums& row : rows) sums += row;
-  if (!(sums(0) > 0)) return {};
-  sums /= sums(0);
-  const double spread = sums(5) - sums(2) * sums(2);
-  return {.mean = sums(1),
-          .size = std::sqrt(sums(3)),
-          .ratio = sums(5) > 0 ? sums(4) / sums(5) : 0,
-          .of_deviations = spread > kOneValue * sums(5) ? (sums(4) - sums(1) * sums(2)) / spread : 0};
+  double weights = 0;
+  double x = 0, y = 0, xx = 0, xy = 0, yy = 0;
+  for_seen_places(transport_.sky_view_factor, gather_->surface(),
+                  [&](std::size_t i, double share, double area) {
+                    const double weight = share * area;
+                    weights += weight;
+                    x += weight * field[i];
+                    y += weight * before_[i];
+                    xx += weight * field[i] * field[i];
+                    xy += weight * field[i] * before_[i];
+                    yy += weight * before_[i] * before_[i];
+                  });
+  if (!(weights > 0)) return {};
+  const double spread = yy - y * y / weights;
+  return {.mean = x / weights,
+          .size = std::sqrt(xx / weights),
+          .ratio = yy > 0 ? xy / yy : 0,
+          .of_deviations = spread > kOneValue * yy ? (xy - x * y / weights) / spread : 0};
 }
 
 TexelVector WalkedBounces::walk(const TexelVector& field, const Likeness& likeness) {

@@ -59,7 +59,7 @@ class WalkedBounces : public BounceSequence {
   double mean_before_ = 0;
   Map sums_;             ///< N, in units
   double unit_ = 1;      ///< of E/π
-  double azimuths_ = 0;  ///< in N, as they weigh there
+  double azimuths_ = 0;  ///< in N, as they weigh there; 0 before anything is walked
 };
 
 }  // namespace heightlight
