@@ -33,14 +33,13 @@ struct SkyCheck {
 
 /// What must hold of any surface, as measured on this one.
 struct EnergyCheck {
-  double row_sum_max_error = 0;   ///< |sky + Σ F − 1|
+  double row_sum_max_error = 0;   ///< |sky + Σ F − 1|, of walks before they scale what they gather
+  double row_sum_rmse = 0;        ///< the same, as an RMS
   double sum_max_error = 0;       ///< |E₀ + … + E_K + tail − 1| at ρ = 1, in units of π
   double mean_total_over_pi = 1;  ///< mean of that sum
   double tail_mean = 0;           ///< of the tail after K bounces at ρ = 1, E/π
   double tail_max = 0;
   double spectral_radius = 0;
-  double solver_residual = 0;  ///< largest relative residual of the linear solves
-  int solver_iterations = 0;   ///< largest number of iterations among them
 };
 
 /// The mean sky view factor of what texels see, weighted by how much of it they see.
@@ -81,6 +80,9 @@ struct Evidence {
   std::vector<double> bounce_rmse;  ///< of E₀/π … E_K/π, where single bounces were asked for
   bool refined = false;  ///< the first check found totals that miss the error: these were found once more
 
+  double solver_residual = 0;  ///< largest relative residual of the linear solves on stored links
+  int solver_iterations = 0;   ///< largest number of iterations among them
+
   // How well energy is kept, where single bounces were asked for.
   std::optional<EnergyCheck> energy;
   std::optional<SeenSky> seen;
@@ -95,5 +97,9 @@ struct Evidence {
 /// Says in words which errors the checks found to be 15 % or more above the one wanted; empty where none
 /// is, or where none was wanted.
 std::string missed_error(const Evidence& evidence);
+
+/// All that speaks against a solution, a line each: an error that is missed, a linear solve that did not
+/// converge.
+std::vector<std::string> find_faults(const Evidence& evidence);
 
 }  // namespace heightlight

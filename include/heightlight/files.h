@@ -17,13 +17,15 @@ namespace heightlight {
 
 /// How the samples of a file become heights. Absent values take the defaults that each field names.
 struct LoadOptions {
-  /// > 0; peak-to-valley of the result. Integer files: width / 10; others: as they are
+  /// > 0; peak-to-valley of the result. Levels without a unit: width / 10; others: as they are
   std::optional<double> relief = {};
   std::optional<double> relief_share = {};  ///< > 0; the same over the width. Excludes `relief`
   std::optional<double> width = {};  ///< > 0; extent of the columns, world units. Default 1. Excludes `texel`
-  std::optional<Spacing> texel = {};  ///< spacing; default width / columns, or an Esri grid's own cell size
-  std::optional<Boundary> boundary = {};    ///< default `open` for Esri grids, `tile` for images
+  std::optional<Spacing> texel =
+      {};  ///< spacing; default an Esri grid's cell size, a GeoTIFF's pixel scale, else width / columns
+  std::optional<Boundary> boundary = {};    ///< default `open` where the file tells a spacing, else `tile`
   std::optional<double> no_data = {};       ///< the value, as stored in the file, that means "missing"
+  std::optional<std::string> part = {};     ///< of an EXR of several: name (any case) or 0-based index
   std::optional<std::string> channel = {};  ///< name (any case) or 0-based index; default: the only one, or
                                             ///< grey where all agree at every texel (alpha left out)
   int shrink = 1;       ///< means of shrink × shrink samples take their place; must divide both sides
@@ -35,38 +37,56 @@ constexpr std::size_t kMostLevels = 65536;
 
 /// What a file turned out to hold, before and after it became a heightmap.
 struct SourceFacts {
-  std::string format;       ///< "png", "esri ascii grid", "openexr", …
-  std::string sample_type;  ///< "uint8", "int8", … "int32", "half", "float", "double", "text"
-  int bits = 0;             ///< per sample; 0 for text
-  bool is_integer = false;  ///< samples are levels without a unit, mapped to [0, relief]
+  std::string format;          ///< "png", "esri ascii grid", "openexr", …
+  std::string sample_type;     ///< "uint8", "int8", … "int32", "half", "float", "double", "text"
+  int bits = 0;                ///< per sample; 0 for text
+  bool is_integer = false;     ///< samples are whole numbers
+  bool is_stretched = false;   ///< they are levels without a unit, mapped to [0, relief]
+  bool white_is_zero = false;  ///< of a TIFF that says so: larger numbers are darker, and lower
   int channels = 0;
   std::string channel;  ///< what was read: "Y", "R", "grey (R = G = B)"
   std::size_t levels =
       0;  ///< distinct values among the samples present; kMostLevels + 1 means more than kMostLevels
-  double lowest = 0;  ///< of the samples present, as stored in the file
+  double level_step = 0;  ///< median distance between neighbouring levels; 0 where they are not few
+  double lowest = 0;      ///< of the samples present, as stored in the file
   double highest = 0;
-  std::optional<double> declared_no_data;  ///< from the header of an Esri grid, or GDAL's tag in a TIFF
+  std::optional<double> declared_no_data;  ///< from the header of an Esri grid, or GDAL's tag in a TIFF;
+                                           ///< -9999 in an Esri grid that names none
   std::string sha256;                      ///< of the file's bytes, hexadecimal
+};
+
+/// What a user should know of a file before believing what is made of it: one line, and a quantity that would
+/// help, with a value, as Error::remedy has it.
+struct Warning {
+  std::string message;
+  std::string remedy = {};
 };
 
 struct LoadedHeightmap {
   Heightmap map;
   SourceFacts facts;
+  std::vector<Warning> warnings;  ///< most weighty first
 };
+
+/// Throws UsageError for options outside their range, or that exclude each other.
+void check_load_options(const LoadOptions& options);
 
 /// Reads a heightmap: PNG of 8 and 16 bits, Esri ASCII grids (`.asc`), and what OpenImageIO reads (EXR, TIFF,
 /// JPEG, TGA, HDR). The format follows from the file's content, not from its name, save for `.asc`. Integer
 /// samples are stretched so that the lowest present is 0 and the highest `relief`; float samples are heights,
-/// stretched likewise only where `relief` is given. What is stretched has base 0; a level map stays level.
-/// Samples equal to `no_data` or to the value that the file itself declares, NaN and ±infinity go missing.
-/// `shrink` comes last, on heights as stretched, so that the relief of what is left may be less.
-/// `width` sets the spacing along the rows, and that of an Esri grid along the columns in proportion.
-/// `memory_limit` (bytes) is checked against the header's size before samples are read.
-/// Throws Error naming `path` and what is wrong: missing, a directory, empty, truncated or damaged, no known
-/// format, 0 × 0, larger than memory or 2^31 samples, nothing but missing samples, heights beyond float,
-/// channels that differ without `channel`, a cell size in degrees without `texel` (the message gives it in
-/// metres); UsageError for options outside their range, `width` with `texel`, or a `channel` that the file
-/// does not have.
+/// and so are integers of a TIFF with a spacing that is signed, has a pixel scale or declares no-data: they
+/// are stretched likewise only where `relief` is given. What is stretched has base 0; a level map stays
+/// level. Samples equal to `no_data` or to the value that the file itself declares, each as the stored type
+/// sees it (the nearest float, half or integer), NaN, ±infinity and transparent ones go missing. `shrink`
+/// comes last, on heights as stretched, so that the relief of what is left may be less. `width` sets the
+/// spacing along the rows, and that of an Esri grid along the columns in proportion. `memory_limit` (bytes)
+/// is checked against the header's size before samples are read. The file is opened once: its checksum is
+/// that of the bytes that were read. Throws Error naming `path` and what is wrong: missing, a directory,
+/// empty, truncated or damaged, no known format, 0 × 0, larger than memory or 2^31 samples, nothing but
+/// missing samples, heights beyond float, several parts without `part`, channels that differ without
+/// `channel`, a cell size in degrees without `texel` (the message gives it in metres), written to while it
+/// was read; UsageError as check_load_options does, and for a `part` or `channel` that the file does not
+/// have.
 LoadedHeightmap load_heightmap(const std::filesystem::path& path, const LoadOptions& options,
                                std::uint64_t memory_limit);
 
@@ -86,7 +106,20 @@ void write_curves_csv(const std::filesystem::path& path, const std::vector<Bounc
 /// Reads such a file back: the columns by their names, in any order. The tail, which it does not hold, is
 /// what the means leave of 1. Throws Error naming the file, and the line, for a column that is missing, a
 /// number that is none or not finite, a kind of AO that is unknown or comes again after the other, bins out
-/// of order or without texels, bounces that don't follow on each other or of which bins have unlike numbers.
+/// of order or without texels, bounces that don't follow on each other or of which bins have unlike numbers,
+/// and for the curves of several runs.
 std::vector<BounceCurves> read_curves_csv(const std::filesystem::path& path);
+
+/// The curves of one run in a table of many.
+struct RunCurves {
+  std::string run;  ///< empty where the table has no such column: `curves.csv`
+  std::string map;  ///< likewise
+  std::vector<BounceCurves> curves;
+};
+
+/// Reads `dataset.csv`, the curves of many runs below each other, or `curves.csv`. Throws Error as
+/// read_curves_csv does, for a run that comes again after another, and naming the memory that a file larger
+/// than `memory_limit` bytes may take.
+std::vector<RunCurves> read_run_curves(const std::filesystem::path& path, std::uint64_t memory_limit);
 
 }  // namespace heightlight

@@ -43,9 +43,11 @@ struct EdgeSteps {
   double across_x =
       0;  ///< root mean square of h(row, 0) − h(row, last), world units; NaN where nothing to compare
   double inside_x = 0;  ///< root mean square step between neighbouring columns
+  double beside_x = 0;  ///< largest of the steps between two columns within an eighth of either border
   double across_y = 0;
   double inside_y = 0;
-  bool wraps = false;  ///< steps across are no larger than 1.5 times those inside, in x and in y
+  double beside_y = 0;
+  bool wraps = false;  ///< steps across are at most 1.5 times the largest beside and 4 times those inside
 };
 
 /// Throws nothing; missing samples are left out, and so is an axis with nothing to compare.

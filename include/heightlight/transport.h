@@ -60,6 +60,9 @@ struct Transport {
   /// F x: what each receiver gets when the surface's radiosity / π is x, finite everywhere. 0 where missing.
   /// The same linear F at every call.
   virtual TexelVector gather(const TexelVector& x) const = 0;
+  /// Σ F of each receiver as links or walks add it up, not as the sky's share leaves it: gather() may scale
+  /// what it finds so that both make 1. 0 where missing.
+  virtual TexelVector surface_share() const = 0;
   /// Bounces from the first on. This must outlive them.
   virtual std::unique_ptr<BounceSequence> start_bounces() const;
   /// E/π of all bounces of each system, which is the same, to the last bit, whatever others are beside it. 0
@@ -72,8 +75,12 @@ struct Transport {
 
 inline TexelVector gather(const Transport& transport, const TexelVector& x) { return transport.gather(x); }
 
-/// Largest |sky + Σ F − 1| over the receivers: what a gather of ones leaves.
-double row_sum_error(const Transport& transport);
+/// |sky + Σ F − 1| over the receivers.
+struct RowSumError {
+  double largest = 0;
+  double rms = 0;
+};
+RowSumError row_sum_error(const Transport& transport);
 
 /// What a receiver sees in one direction: a place on the surface, and through `weight` the form factor. The
 /// place lies in the cell whose upper left vertex is (row, column), at (across, down) / 255 of it.
@@ -105,6 +112,7 @@ struct FormFactors : Transport {
   FormFactors(int map_width, int map_height);  ///< without links, nothing known of the sky
 
   TexelVector gather(const TexelVector& x) const override;
+  TexelVector surface_share() const override;
   /// By solve_equilibrium.
   Totals solve(const std::vector<LightSystem>& systems, const Watch& watch) const override;
   std::uint64_t link_count() const override;
@@ -150,9 +158,14 @@ struct HorizonPlan {
   GatherPlan gather = {};
 };
 
+/// Throws UsageError for a plan that cannot be walked: azimuths must be even, from 2 to 65536 of the sky and
+/// to 4096 of gathers; a multiple of 4 of the sky where open ground walks every other one (full_from > 0); a
+/// fineness from 1 to 128, a share of the peaks from 0 to 1.
+void check_horizon_plan(const HorizonPlan& plan);
+
 /// The operator by horizon walks as planned: nothing is stored, each gather walks. `surface` must outlive it.
-/// `error` > 0 is the RMSE that solve() aims at, in units of the brightest direct light. Throws UsageError
-/// for a number of azimuths outside its range.
+/// `error` > 0 is the RMSE that solve() aims at, in units of the brightest direct light. Throws UsageError as
+/// check_horizon_plan does.
 std::unique_ptr<Transport> build_horizon_transport(const Surface& surface, const HorizonPlan& plan,
                                                    double error = 0.002, const Watch& watch = {});
 

@@ -58,14 +58,16 @@ std::vector<double> check_constants(const std::string& text, std::vector<double>
 /// One channel as reflectance.
 TexelVector decode(const StoredImage& image, std::size_t channel) {
   const std::size_t stride = image.channels.size();
+  const bool dark = image.tiff && image.tiff->white_is_zero;  // larger numbers are darker
   return std::visit(
       [&](const auto& samples) {
         using Sample = typename std::decay_t<decltype(samples)>::value_type;
+        constexpr double kWhite = static_cast<double>(std::numeric_limits<Sample>::max());
         TexelVector values(samples.size() / stride);
         for (std::size_t i = 0; i < values.size(); ++i) {
           const double stored = static_cast<double>(samples[i * stride + channel]);
           values[i] = std::is_integral_v<Sample>
-                          ? srgb_to_linear(stored / static_cast<double>(std::numeric_limits<Sample>::max()))
+                          ? srgb_to_linear(dark ? 1 - stored / kWhite : stored / kWhite)
                           : stored;
         }
         return values;
@@ -74,9 +76,10 @@ TexelVector decode(const StoredImage& image, std::size_t channel) {
 }
 
 Albedo read_albedo_file(const std::string& path, const Heightmap& map, std::uint64_t memory_limit) {
-  const FileFormat format = recognise_format(path);
-  if (format == FileFormat::esri_grid) throw file_error(path, "an Esri grid holds no albedo; use an image");
-  const StoredImage image = read_image(path, format, memory_limit);
+  const InputFile file(path);
+  const FileFormat format = recognise_format(file);
+  if (format == FileFormat::esri_grid) throw file.error("an Esri grid holds no albedo; use an image");
+  const StoredImage image = read_image(file, format, memory_limit);
   if (image.width != map.height.width || image.height != map.height.height) {
     throw file_error(path, "the albedo is " + std::to_string(image.width) + " × " +
                                std::to_string(image.height) + ", the heightmap " +
@@ -99,6 +102,15 @@ Albedo read_albedo_file(const std::string& path, const Heightmap& map, std::uint
 }
 
 }  // namespace
+
+void check_albedo(const std::string& text) {
+  if (auto colour = parse_picture_colour(text)) return;
+  if (auto constants = parse_constants(text)) {
+    check_constants(text, std::move(*constants));
+  } else {
+    InputFile(std::filesystem::path(text));
+  }
+}
 
 Albedo read_albedo(const std::string& text, const Heightmap& map, std::uint64_t memory_limit) {
   if (auto colour = parse_picture_colour(text))

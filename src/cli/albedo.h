@@ -15,4 +15,8 @@ namespace heightlight {
 /// another size or with samples outside [0, 1] or NaN.
 Albedo read_albedo(const std::string& text, const Heightmap& map, std::uint64_t memory_limit);
 
+/// What of that can be told without a map. Throws UsageError for values outside [0, 1] or too few or many of
+/// them, Error for a file that is not there.
+void check_albedo(const std::string& text);
+
 }  // namespace heightlight

@@ -1,13 +1,14 @@
 #include "cli/bake_inputs.h"
 
+#include <fnmatch.h>
+
 #include <algorithm>
 #include <cctype>
-#include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <system_error>
 
+#include "files/file_record.h"
 #include "files/input_file.h"
 #include "heightlight/error.h"
 
@@ -25,42 +26,93 @@ bool has_heightmap_extension(const fs::path& path) {
   return kExtensions.contains(extension);
 }
 
-/// Names of files that a sidecar speaks of; none where it is not one.
-void add_baked(const fs::path& sidecar, std::set<std::string>& names) {
-  std::ifstream file(sidecar);
-  const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
-  if (!json.is_object() || !json.contains("files") || !json["files"].is_array()) return;
-  for (const nlohmann::json& entry : json["files"]) {
-    if (entry.is_object() && entry.contains("file") && entry["file"].is_string()) {
-      names.insert(entry["file"].get<std::string>());
-    }
+/// Words of a name: parted by what is no letter or digit, and where a capital follows a small letter.
+std::vector<std::string> words_of(const std::string& name) {
+  std::vector<std::string> words(1);
+  bool after_small = false;
+  for (const unsigned char c : name) {
+    if (std::isalnum(c) == 0 || (std::isupper(c) != 0 && after_small)) words.emplace_back();
+    if (std::isalnum(c) != 0) words.back() += static_cast<char>(std::tolower(c));
+    after_small = std::islower(c) != 0;
   }
+  return words;
 }
 
-std::vector<fs::path> list_folder(const fs::path& folder) {
-  std::vector<fs::path> files;
-  std::set<std::string> baked;
+/// As material libraries and bakers name what belongs to a material beside its heights.
+bool names_other_map(const std::string& name) {
+  static const std::set<std::string> kHeights{"height",       "heights", "heightmap", "disp",
+                                              "displacement", "bump",    "depth",     "elevation",
+                                              "dem",          "dsm",     "dtm",       "terrain"};
+  static const std::set<std::string> kOthers{
+      "color",    "colour",     "basecolor",  "base",      "albedo",      "diffuse",   "diff",
+      "col",      "normal",     "normals",    "nor",       "nrm",         "normalgl",  "normaldx",
+      "gl",       "dx",         "ao",         "occlusion", "ambient",     "rough",     "roughness",
+      "gloss",    "glossiness", "smoothness", "metal",     "metallic",    "metalness", "spec",
+      "specular", "opacity",    "alpha",      "mask",      "emission",    "emissive",  "arm",
+      "orm",      "preview",    "thumbnail",  "render",    "multibounce", "bent",      "cone",
+      "packed",   "curvature",  "cavity",     "sh",        "horizon"};
+  bool other = false;
+  for (const std::string& word : words_of(name)) {
+    if (kHeights.contains(word)) return false;
+    other = other || kOthers.contains(word);
+  }
+  return other;
+}
+
+/// Names of files that the sidecars in a folder speak of.
+std::set<std::string> baked_in(const fs::path& folder) {
+  std::set<std::string> names;
   std::error_code failure;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, failure)) {
-    if (!entry.is_regular_file()) continue;
-    if (entry.path().filename().string().ends_with("_bake.json")) add_baked(entry.path(), baked);
-    if (has_heightmap_extension(entry.path())) files.push_back(entry.path());
+  for (fs::directory_iterator entry(folder, failure), end; entry != end; entry.increment(failure)) {
+    if (!entry->path().filename().string().ends_with("_bake.json")) continue;
+    const auto records = read_file_records(entry->path());
+    if (!records) continue;
+    for (const FileRecord& record : *records) names.insert(record.name);
+  }
+  return names;
+}
+
+void list_folder(const fs::path& folder, const std::string& pattern, std::vector<fs::path>& files,
+                 std::vector<fs::path>& left_out) {
+  const std::set<std::string> baked = baked_in(folder);
+  const std::size_t before = files.size();
+  std::error_code failure;
+  for (fs::directory_iterator entry(folder, failure), end; entry != end; entry.increment(failure)) {
+    const fs::path& path = entry->path();
+    const std::string name = path.filename().string();
+    std::error_code ignored;
+    if (!has_heightmap_extension(path) || entry->is_directory(ignored)) continue;
+    if (pattern.empty() && baked.contains(name)) continue;
+    if (!pattern.empty() && fnmatch(pattern.c_str(), name.c_str(), 0) != 0) continue;
+    if (pattern.empty() && names_other_map(path.stem().string())) {
+      left_out.push_back(path);
+    } else {
+      files.push_back(path);
+    }
   }
   if (failure) throw file_error(folder, "cannot be read: " + failure.message());
-  std::erase_if(files, [&](const fs::path& path) { return baked.contains(path.filename().string()); });
-  if (files.empty()) throw file_error(folder, "there is no heightmap in it");
-  std::sort(files.begin(), files.end());
-  return files;
+  if (files.size() == before) {
+    throw file_error(
+        folder, left_out.empty() ? "there is no heightmap in it" : "there is no heightmap in it by its name",
+        left_out.empty() ? "" : "pattern");
+  }
+  std::sort(files.begin() + static_cast<std::ptrdiff_t>(before), files.end());
+  std::sort(left_out.begin(), left_out.end());
 }
 
 }  // namespace
 
-std::vector<BakeInput> list_bake_inputs(const std::vector<fs::path>& named) {
-  std::vector<BakeInput> inputs;
+BakeInputs list_bake_inputs(const std::vector<fs::path>& named, const std::string& pattern) {
+  BakeInputs listed;
+  std::vector<BakeInput>& inputs = listed.inputs;
   for (const fs::path& path : named) {
     std::error_code ignored;
-    const std::vector<fs::path> files =
-        fs::is_directory(path, ignored) ? list_folder(path) : std::vector<fs::path>{path};
+    std::vector<fs::path> files;
+    if (fs::is_directory(path, ignored)) {
+      list_folder(path, pattern, files, listed.left_out);
+    } else {
+      files.push_back(path);
+    }
     for (const fs::path& file : files) inputs.push_back({file, file.stem().string()});
   }
   std::map<std::string, fs::path> by_name;
@@ -71,7 +123,7 @@ std::vector<BakeInput> list_bake_inputs(const std::vector<fs::path>& named) {
                        ": both would be written as " + input.name + "_…; bake them into different folders");
     }
   }
-  return inputs;
+  return listed;
 }
 
 }  // namespace heightlight

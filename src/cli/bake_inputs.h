@@ -12,9 +12,17 @@ struct BakeInput {
   std::string name;
 };
 
-/// The files named, and of each folder named those with the extension of a heightmap, by name; what a sidecar
-/// in that folder says was baked is left out. Throws UsageError where two inputs would write the same files,
-/// Error for a folder that holds none.
-std::vector<BakeInput> list_bake_inputs(const std::vector<std::filesystem::path>& named);
+/// What a batch bakes.
+struct BakeInputs {
+  std::vector<BakeInput> inputs;
+  std::vector<std::filesystem::path> left_out;  ///< of folders: by their names no heights
+};
+
+/// The files named, and of each folder named those with the extension of a heightmap, by name. Of a folder's,
+/// `pattern` (a glob, empty for none) chooses; without it, what a sidecar there says was baked is left out,
+/// and what its name calls something else (colour, normal, roughness, ao …). What cannot be looked at stays:
+/// its baking fails by itself. Throws UsageError where two inputs would write the same files, Error for a
+/// folder that holds none.
+BakeInputs list_bake_inputs(const std::vector<std::filesystem::path>& named, const std::string& pattern);
 
 }  // namespace heightlight

@@ -9,12 +9,15 @@
 #include "cli/commands.h"
 #include "cli/map_options.h"
 #include "cli/name_errors.h"
+#include "cli/plots.h"
 #include "cli/terminal_watch.h"
+#include "cli/warnings.h"
 #include "comparison/comparison_csv.h"
 #include "comparison/report.h"
 #include "files/evidence_json.h"
 #include "files/image_file.h"
 #include "files/output_file.h"
+#include "files/printable.h"
 #include "files/staged_output.h"
 #include "heightlight/error.h"
 #include "heightlight/files.h"
@@ -90,20 +93,24 @@ std::vector<std::string> result_names() {
   return names;
 }
 
-void write_error_pictures(StagedFolder& folder, const std::vector<ErrorMap>& maps, const std::string& title) {
+void write_error_pictures(StagedFolder& folder, const std::vector<ErrorMap>& maps, const std::string& title,
+                          Plots& plots) {
   for (std::size_t i = 0; i < maps.size(); ++i) {
     write_png(folder.file(error_picture_name(i + 1, maps[i].method)),
               difference_picture(maps[i].differences));
   }
-  plot_error_sheet(folder.file("errors.png"), maps, title);
+  plots.draw(folder, {"errors.png"}, [&](const auto& paths) { plot_error_sheet(paths[0], maps, title); });
 }
 
 /// compare.json: the map, what the reference errs by, and the evidence of its totals.
-void write_evidence(const std::filesystem::path& path, const CompareOptions& options, const Surface& surface,
-                    const SourceFacts& facts, const ComparisonReference& reference) {
+std::string evidence_json(const CompareOptions& options, const Surface& surface,
+                          const LoadedHeightmap& loaded, const ComparisonReference& reference,
+                          const std::vector<FileRecord>& files) {
   nlohmann::ordered_json json;
   json["version"] = HEIGHTLIGHT_VERSION;
-  json["map"] = describe_map(options.map.path, facts.sha256, surface);
+  json["map"] = describe_map(options.map.path, loaded.facts.sha256, surface);
+  json["files"] = describe_files(files);
+  json["warnings"] = describe_warnings(loaded.warnings);
   json["reference"] = {{"azimuths", reference.azimuths},
                        {"checked",
                         {{"receivers", reference.checked},
@@ -116,11 +123,11 @@ void write_evidence(const std::filesystem::path& path, const CompareOptions& opt
   json["time_s"] = describe_times(reference.total_evidence.seconds);
   json["memory"] = describe_memory(reference.total_evidence);
   json["threads"] = reference.total_evidence.threads;
-  write_bytes(path, json_text(json));
+  return json_text(json);
 }
 
-void compare_on(const CompareOptions& options, const Surface& surface, const SourceFacts& facts,
-                StagedFolder& folder) {
+void compare_on(const CompareOptions& options, const Surface& surface, LoadedHeightmap& loaded,
+                StagedFolder& folder, Plots& plots) {
   const Watch terminal = terminal_watch(options.run.quiet);
   const std::vector<ComparedAlbedo> albedos =
       compared_albedos(read_albedo(options.albedo, surface.map, options.run.memory), surface);
@@ -137,30 +144,37 @@ void compare_on(const CompareOptions& options, const Surface& surface, const Sou
       .surface = surface, .depth = depth, .albedos = albedos, .memory = memory, .seed = options.run.seed};
   const Comparison comparison = compare_methods(scene, reference, make_contenders(scene), terminal);
 
-  const std::string name = options.map.path.filename().string();
+  const std::string name = printable(options.map.path.filename());
   write_comparison_csv(folder.file("compare.csv"), comparison.rows);
-  write_evidence(folder.file("compare.json"), options, surface, facts, reference);
   write_report(folder.file("report.md"), {.map_name = name,
                                           .scene = scene,
                                           .reference = reference,
                                           .comparison = comparison,
                                           .depth_cost = depth_cost});
-  plot_pareto(folder.file("pareto.svg"), folder.file("pareto.png"), comparison.rows,
-              {kSkyQuantity, total_quantity(albedos.back())}, name);
-  write_error_pictures(folder, comparison.shown, name);
+  plots.draw(folder, {"pareto.svg", "pareto.png"}, [&](const auto& paths) {
+    plot_pareto(paths[0], paths[1], comparison.rows, {kSkyQuantity, total_quantity(albedos.back())}, name);
+  });
+  write_error_pictures(folder, comparison.shown, name, plots);
+  for (const std::string& fault : find_faults(reference.total_evidence))
+    loaded.warnings.push_back({"the reference: " + fault});
+  const std::vector<FileRecord> files = folder.written();
+  write_bytes(folder.file("compare.json"), evidence_json(options, surface, loaded, reference, files));
   folder.commit();
+  tell_warnings(options.map.path, loaded.warnings);
   if (options.run.quiet) return;
-  fmt::print("{}: {} lines in {}\n", options.map.path.string(), comparison.rows.size(),
-             (options.folder / "compare.csv").string());
+  fmt::print("{}: {} lines in {}\n", printable(options.map.path), comparison.rows.size(),
+             printable(options.folder / "compare.csv"));
 }
 
 void compare(CompareOptions& options) {
   apply_run_options(options.run);
   check_azimuths(options.azimuths);
-  StagedFolder folder(options.folder, {options.map.path, options.albedo}, result_names());
+  StagedFolder folder(options.folder, {options.map.path, options.albedo}, result_names(), "compare.json");
+  Plots plots;
   LoadedHeightmap loaded = load_heightmap(options.map.path, options.map.load, options.run.memory);
   const Surface surface = build_surface(std::move(loaded.map));
-  name_errors(options.map.path, [&] { compare_on(options, surface, loaded.facts, folder); });
+  name_errors(options.map.path, [&] { compare_on(options, surface, loaded, folder, plots); });
+  plots.check();
 }
 
 }  // namespace

@@ -15,10 +15,12 @@
 #include "cli/manifest.h"
 #include "cli/terminal_watch.h"
 #include "cli/user_message.h"
+#include "cli/warnings.h"
 #include "files/folder_lock.h"
 #include "files/image_file.h"
 #include "files/map_size.h"
 #include "files/output_file.h"
+#include "files/printable.h"
 #include "files/staged_output.h"
 #include "heightlight/error.h"
 #include "heightlight/synth.h"
@@ -70,12 +72,27 @@ void make_shape(const DatasetRun& run, const std::vector<fs::path>& inputs,
   made.insert(&map);
 }
 
+/// What the runs of a job share: shapes that were made, warnings that were told.
+struct Told {
+  Plots& plots;
+  std::set<const ManifestMap*> made = {};
+  std::set<std::string> warnings = {};
+};
+
+/// Of a map's many runs, each warning is told once; the summary of each has all of its own.
+void tell_new_warnings(const DatasetRun& run, const std::vector<Warning>& warnings,
+                       std::set<std::string>& told) {
+  for (const Warning& warning : warnings) {
+    if (told.insert(run.map->name + '\n' + warning.message).second) tell_warnings(run.name, {warning});
+  }
+}
+
 /// Why a run failed. Where results cannot be written, no run can do anything, and the job ends.
-std::string try_run(const DatasetRun& run, const std::vector<fs::path>& inputs,
-                    std::set<const ManifestMap*>& made, const Watch& watch) {
+std::string try_run(const DatasetRun& run, const std::vector<fs::path>& inputs, Told& told,
+                    const Watch& watch) {
   try {
-    make_shape(run, inputs, made);
-    simulate_map(run.simulate, watch);
+    make_shape(run, inputs, told.made);
+    tell_new_warnings(run, simulate_map(run.simulate, told.plots, watch).warnings, told.warnings);
     return "";
   } catch (const OutputError&) {
     throw;
@@ -88,22 +105,25 @@ std::string try_run(const DatasetRun& run, const std::vector<fs::path>& inputs,
   }
 }
 
-void tell(const DatasetRun& run) { fmt::print(stderr, "heightlight: {}: {}\n", run.name, run.fault); }
+void tell(const DatasetRun& run) {
+  fmt::print(stderr, "heightlight: {}: {}\n", printable(run.name), printable(run.fault));
+}
 
 /// Does what is to be done, in the manifest's order.
-void do_runs(const std::vector<DatasetRun*>& runs, const std::vector<fs::path>& inputs, bool quiet) {
+void do_runs(const std::vector<DatasetRun*>& runs, const std::vector<fs::path>& inputs, Plots& plots,
+             bool quiet) {
   const Watch jobs = terminal_watch(quiet);
   Progress progress("dataset", static_cast<std::int64_t>(runs.size()), jobs);
-  std::set<const ManifestMap*> made;
+  Told told{.plots = plots};
   for (std::size_t i = 0; i < runs.size(); ++i) {
     DatasetRun& run = *runs[i];
     const Watch watch = terminal_watch(quiet, fmt::format("run {} of {}: ", i + 1, runs.size()));
     Stopwatch lap;
-    run.fault = try_run(run, inputs, made, watch);
+    run.fault = try_run(run, inputs, told, watch);
     if (!run.fault.empty()) {
       tell(run);
     } else if (!quiet) {
-      fmt::print("{}: {:.1f} s\n", run.name, lap.lap());
+      fmt::print("{}: {:.1f} s\n", printable(run.name), lap.lap());
       std::fflush(stdout);
     }
     progress.add(1);
@@ -130,32 +150,34 @@ void make_dataset(DatasetOptions& options) {
   make_folder(options.folder);
   const FolderLock lock(options.folder);
   std::vector<DatasetRun> runs = list_runs(manifest, options.folder, options.run);
+  Plots plots;
   std::vector<DatasetRun*> to_do;
   for (DatasetRun& run : runs) {
     if (!run.fault.empty()) {
       tell(run);
-    } else if (!is_done(run)) {
+    } else if (!is_done(run, plots.possible())) {
       to_do.push_back(&run);
     }
   }
   if (!options.run.quiet) {
-    fmt::print("{}: {} runs, {} of them to do\n", options.manifest.string(), runs.size(), to_do.size());
+    fmt::print("{}: {} runs, {} of them to do\n", printable(options.manifest), runs.size(), to_do.size());
     std::fflush(stdout);
   }
   make_folder(runs_folder(options.folder));
-  do_runs(to_do, inputs, options.run.quiet);
+  do_runs(to_do, inputs, plots, options.run.quiet);
   write_tables(manifest, runs, options.folder, inputs);
   const auto failed =
       std::count_if(runs.begin(), runs.end(), [](const DatasetRun& run) { return !run.fault.empty(); });
   if (!options.run.quiet) {
     const std::ptrdiff_t stale = count_stale(runs, options.folder);
     if (stale > 0) fmt::print("{} folders in runs/ belong to no run of the manifest any more\n", stale);
-    fmt::print("results in {}\n", options.folder.string());
+    fmt::print("results in {}\n", printable(options.folder));
   }
   if (failed > 0) {
     throw Error(options.manifest.string() + ": " + std::to_string(failed) + " of " +
                 std::to_string(runs.size()) + " runs could not be done");
   }
+  plots.check();
 }
 
 }  // namespace

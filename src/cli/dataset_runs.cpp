@@ -1,10 +1,12 @@
 #include "cli/dataset_runs.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "base/digits.h"
-#include "cli/json_place.h"
+#include "cli/request.h"
 #include "cli/user_message.h"
+#include "files/file_record.h"
 #include "files/image_file.h"
 #include "heightlight/version.h"
 
@@ -30,29 +32,13 @@ Checksum checksum_of(const fs::path& file) {
   }
 }
 
-template <class T>
-Json or_null(const std::optional<T>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
-
 /// A shape is what its recipe and this version make of it; a file, what it holds.
 Json describe_map(const ManifestMap& map, const Checksum& checksum, const LoadOptions& load) {
   Json content = checksum.sha256;
   if (map.is_shape()) content = {map.source, map.size, map.seed};
-  Json texel = nullptr;
-  if (load.texel) texel = {load.texel->x, load.texel->y};
-  return {{"name", map.name},
-          {"file", map.file.filename().string()},
-          {"content", content},
-          {"relief", or_null(load.relief)},
-          {"relief_share", or_null(load.relief_share)},
-          {"width", or_null(load.width)},
-          {"texel", texel},
-          {"boundary", load.boundary ? Json(to_string(*load.boundary)) : Json(nullptr)},
-          {"no_data", or_null(load.no_data)},
-          {"channel", or_null(load.channel)},
-          {"shrink", load.shrink},
-          {"invert", load.invert}};
+  Json json = {{"name", map.name}, {"file", map.file.filename().string()}, {"content", content}};
+  json.update(describe_load_options(load));
+  return json;
 }
 
 /// Only what the results depend on: the wanted error means nothing to rays.
@@ -99,7 +85,7 @@ void complete(DatasetRun& run, const fs::path& folder, const RunOptions& given, 
     const Json all = {{"version", HEIGHTLIGHT_VERSION},
                       {"map", describe_map(*run.map, map, simulate.map.load)},
                       {"options", describe_simulation(simulate, reflectance)}};
-    run.key = sha256_of(all.dump(-1, ' ', false, Json::error_handler_t::replace));
+    run.key = request_key(all);
   }
   run.name = name_run(run);
   simulate.folder = runs_folder(folder) / run.name;
@@ -135,18 +121,14 @@ std::vector<DatasetRun> list_runs(const Manifest& manifest, const fs::path& fold
   return runs;
 }
 
-bool is_done(const DatasetRun& run) {
-  std::error_code ignored;
-  const fs::path summary = run.simulate.folder / "summary.json";
-  if (!run.fault.empty() || !fs::is_regular_file(run.simulate.folder / "curves.csv", ignored) ||
-      !fs::is_regular_file(summary, ignored)) {
-    return false;
-  }
-  try {
-    return read_json(summary).contains("energy");
-  } catch (const Error&) {
-    return false;  // damaged from outside: made again
-  }
+bool is_done(const DatasetRun& run, bool with_plots) {
+  if (!run.fault.empty()) return false;
+  const auto files = read_file_records(run.simulate.folder / "summary.json");
+  const auto is_plot = [](const FileRecord& file) { return file.name == "curves.svg"; };
+  if (!files || files->empty()) return false;
+  if (with_plots && std::none_of(files->begin(), files->end(), is_plot)) return false;
+  return std::all_of(files->begin(), files->end(),
+                     [&](const FileRecord& file) { return is_as_recorded(run.simulate.folder, file); });
 }
 
 }  // namespace heightlight

@@ -32,7 +32,8 @@ std::vector<DatasetRun> list_runs(const Manifest& manifest, const std::filesyste
 std::filesystem::path runs_folder(const std::filesystem::path& folder);
 std::filesystem::path shapes_folder(const std::filesystem::path& folder);
 
-/// Whether the run's folder holds all its results.
-bool is_done(const DatasetRun& run);
+/// Whether the run's folder holds all its results as its summary records them, to the last byte; with its
+/// plots, where those are wanted.
+bool is_done(const DatasetRun& run, bool with_plots);
 
 }  // namespace heightlight

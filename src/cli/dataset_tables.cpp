@@ -8,11 +8,11 @@
 #include <nlohmann/json.hpp>
 
 #include "base/digits.h"
-#include "cli/json_place.h"
 #include "files/evidence_json.h"
 #include "files/image_file.h"
 #include "files/input_file.h"
 #include "files/interrupt.h"
+#include "files/json_file.h"
 #include "files/output_file.h"
 #include "files/staged_output.h"
 #include "heightlight/files.h"
@@ -117,7 +117,8 @@ std::string cost_line(const DatasetRun& run, const Json& summary) {
 }  // namespace
 
 void refuse_to_replace(const std::vector<fs::path>& inputs, const fs::path& folder) {
-  for (const char* name : kTables) check_inputs_stay(inputs, folder / name);
+  const InputGuard guard(inputs);
+  for (const char* name : kTables) guard.check(folder / name);
 }
 
 void write_tables(const Manifest& manifest, const std::vector<DatasetRun>& runs, const fs::path& folder,

@@ -8,8 +8,10 @@
 #include "cli/fit_pictures.h"
 #include "cli/fit_report.h"
 #include "cli/map_options.h"
+#include "cli/plots.h"
 #include "cli/terminal_watch.h"
 #include "files/output_file.h"
+#include "files/printable.h"
 #include "files/staged_output.h"
 #include "heightlight/closed_forms.h"
 #include "heightlight/error.h"
@@ -24,13 +26,17 @@ struct FitOptions {
   RunOptions run;
 };
 
-std::vector<JudgedMap> read_maps(const FitOptions& options) {
+/// `inputs` gets the file of each.
+std::vector<JudgedMap> read_maps(const FitOptions& options, std::vector<std::filesystem::path>& inputs) {
   std::vector<JudgedMap> maps;
   const Watch watch = terminal_watch(options.run.quiet);
   Progress progress("reading", static_cast<std::int64_t>(options.curves.size()), watch);
   for (const std::filesystem::path& path : options.curves) {
     progress.throw_if_stopped();
-    maps.push_back(read_judged_map(path, options.run.memory));
+    for (JudgedMap& map : read_judged_maps(path, options.run.memory)) {
+      maps.push_back(std::move(map));
+      inputs.push_back(path);
+    }
     progress.add(1);
   }
   return maps;
@@ -79,6 +85,17 @@ std::vector<AlbedoCubic> cubics_by_albedo(const std::vector<JudgedMap>& maps, co
   return {};
 }
 
+void draw_plots(StagedFolder& folder, const FitReport& report, Plots& plots) {
+  const auto draw = [&](const std::string& name, const auto& plot) {
+    plots.draw(folder, {name + ".svg", name + ".png"}, [&](const auto& paths) { plot(paths[0], paths[1]); });
+  };
+  draw("fitted", [&](const auto& svg, const auto& png) { plot_fitted(svg, png, fitted_panels(report)); });
+  const bool by_texel = !report.trial.per_texel.empty();
+  const std::vector<JudgedForm>& judged = by_texel ? report.trial.per_texel : report.trial.per_bin;
+  draw("errors", [&](const auto& svg, const auto& png) { plot_errors(svg, png, judged); });
+  draw("cubic", [&](const auto& svg, const auto& png) { plot_cubics(svg, png, cubic_panel(report)); });
+}
+
 void fit(FitOptions& options) {
   apply_run_options(options.run);
   if (options.bootstrap < 20 || options.bootstrap > 100000) {
@@ -86,31 +103,31 @@ void fit(FitOptions& options) {
   }
   StagedFolder folder(options.folder, options.curves,
                       {"models.json", "models.csv", "models.glsl", "models.hlsl", "fitted.svg", "fitted.png",
-                       "errors.svg", "errors.png", "cubic.svg", "cubic.png"});
+                       "errors.svg", "errors.png", "cubic.svg", "cubic.png"},
+                      "models.json");
+  Plots plots;
   FitReport report;
-  report.inputs = options.curves;
   report.seed = options.run.seed;
-  report.maps = read_maps(options);
+  report.maps = read_maps(options, report.inputs);
   report.families = fit_families(options, report.maps);
   report.cubics_three_bounces = cubics_by_albedo(report.maps, "cubic_three_bounces");
   report.cubics_all_bounces = cubics_by_albedo(report.maps, "cubic");
   report.trial = cross_validate(report.maps, terminal_watch(options.run.quiet));
   report.floors = find_floors(report.maps);
 
-  write_bytes(folder.file("models.json"), report_json(report));
   write_bytes(folder.file("models.csv"), report_csv(report));
   const ShaderConstants constants = shader_constants(report);
   write_bytes(folder.file("models.glsl"), shader_text(ShaderLanguage::glsl, constants));
   write_bytes(folder.file("models.hlsl"), shader_text(ShaderLanguage::hlsl, constants));
-  plot_fitted(folder.file("fitted.svg"), folder.file("fitted.png"), fitted_panels(report));
-  const bool by_texel = !report.trial.per_texel.empty();
-  plot_errors(folder.file("errors.svg"), folder.file("errors.png"),
-              by_texel ? report.trial.per_texel : report.trial.per_bin);
-  plot_cubics(folder.file("cubic.svg"), folder.file("cubic.png"), cubic_panel(report));
+  draw_plots(folder, report, plots);
+  report.files = folder.written();
+  write_bytes(folder.file("models.json"), report_json(report));
   folder.commit();
-  if (options.run.quiet) return;
-  print_report(report);
-  fmt::print("results in {}\n", options.folder.string());
+  if (!options.run.quiet) {
+    print_report(report);
+    fmt::print("results in {}\n", printable(options.folder));
+  }
+  plots.check();
 }
 
 }  // namespace
@@ -119,7 +136,9 @@ void add_fit_command(CLI::App& app) {
   auto* command = app.add_subcommand(
       "fit", "Closed forms of the total irradiance: fitted, and judged on maps that no fit saw");
   auto options = std::make_shared<FitOptions>();
-  command->add_option("CURVES", options->curves, "curves.csv of simulate, one or many")->required();
+  command
+      ->add_option("CURVES", options->curves, "curves.csv of simulate or dataset.csv of dataset, one or many")
+      ->required();
   command->add_option("-o,--output", options->folder, "folder for the results")->type_name("DIR")->required();
   command->add_option("--bootstrap", options->bootstrap, "draws for the intervals of parameters (200)");
   add_run_options(*command, options->run);
@@ -132,7 +151,8 @@ void add_fit_command(CLI::App& app) {
       "Writes models.json, models.csv, models.glsl, models.hlsl, and plots: fitted, errors, cubic.\n"
       "Examples:\n"
       "  heightlight fit wall/curves.csv -o models\n"
-      "  heightlight fit runs/*/curves.csv -o models");
+      "  heightlight fit runs/*/curves.csv -o models\n"
+      "  heightlight fit study/dataset.csv -o models");
   command->callback([options] { fit(*options); });
 }
 

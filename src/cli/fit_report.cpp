@@ -112,6 +112,7 @@ const FittedFamily* find_family(const FitReport& report, const std::string& name
 std::string report_json(const FitReport& report) {
   Json json;
   json["version"] = HEIGHTLIGHT_VERSION;
+  json["files"] = describe_files(report.files);
   json["seed"] = report.seed;
   json["maps"] = Json::array();
   for (std::size_t i = 0; i < report.maps.size(); ++i) {

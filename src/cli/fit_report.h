@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "files/file_record.h"
 #include "fit/bootstrap.h"
 #include "fit/cross_validation.h"
 #include "fit/cubic_by_albedo.h"
@@ -22,7 +23,7 @@ struct FittedFamily {
 
 /// Everything that `heightlight fit` found out.
 struct FitReport {
-  std::vector<std::filesystem::path> inputs;  ///< the curves' files, as given
+  std::vector<std::filesystem::path> inputs;  ///< the file of each map's curves, as given
   std::vector<JudgedMap> maps;
   std::vector<FittedFamily> families;
   std::vector<AlbedoCubic> cubics_three_bounces;
@@ -30,6 +31,7 @@ struct FitReport {
   CrossValidation trial;
   std::vector<Floor> floors;
   std::uint64_t seed = 1;
+  std::vector<FileRecord> files = {};  ///< that the folder holds beside models.json
 };
 
 /// The family of that name; nullptr where it could not be fitted.

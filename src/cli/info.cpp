@@ -6,21 +6,24 @@
 
 #include "cli/commands.h"
 #include "cli/map_options.h"
+#include "cli/warnings.h"
+#include "files/printable.h"
 
 namespace heightlight {
 namespace {
 
 void report_file(const std::filesystem::path& path, const SourceFacts& facts) {
-  fmt::print("file       {}\n", path.string());
+  fmt::print("file       {}\n", printable(path));
   if (facts.bits > 0) {
     fmt::print("format     {}, {} ({} bits per sample)\n", facts.format, facts.sample_type, facts.bits);
   } else {
     fmt::print("format     {}\n", facts.format);
   }
-  fmt::print("channel    {} (of {})\n", facts.channel, facts.channels);
+  fmt::print("channel    {} (of {})\n", printable(facts.channel), facts.channels);
   fmt::print("stored     {:.9g} to {:.9g}, {}{} distinct levels{}\n", facts.lowest, facts.highest,
              facts.levels > kMostLevels ? "more than " : "", std::min(facts.levels, kMostLevels),
-             facts.is_integer ? " (without unit; stretched to the relief)" : "");
+             facts.is_stretched ? " (without unit; stretched to the relief)" : "");
+  if (facts.white_is_zero) fmt::print("white is 0  larger numbers are darker, and lower\n");
   if (facts.declared_no_data) fmt::print("no-data    {:.9g}, says the file\n", *facts.declared_no_data);
   fmt::print("sha256     {}\n", facts.sha256);
 }
@@ -38,55 +41,25 @@ void report_map(const Heightmap& map, const EdgeSteps& steps) {
   if (std::isnan(steps.across_x) && std::isnan(steps.across_y)) {
     fmt::print("edges      no samples to compare\n");
   } else {
-    fmt::print("edges      {}; steps (rms) across and inside: x {:.3g} and {:.3g}, y {:.3g} and {:.3g}\n",
-               steps.wraps ? "wrap" : "do not wrap", steps.across_x, steps.inside_x, steps.across_y,
-               steps.inside_y);
+    fmt::print(
+        "edges      {}; steps (rms) across, beside and inside: x {:.3g}, {:.3g}, {:.3g}, y {:.3g}, {:.3g}, "
+        "{:.3g}\n",
+        steps.wraps ? "wrap" : "do not wrap", steps.across_x, steps.beside_x, steps.inside_x, steps.across_y,
+        steps.beside_y, steps.inside_y);
   }
   const std::size_t missing = count_missing(map);
   const double percent = 100 * static_cast<double>(missing) / static_cast<double>(map.height.size());
   fmt::print("missing    {} of {} samples ({:.2f} %)\n", missing, map.height.size(), percent);
 }
 
-/// Values that programs write for missing samples, and that no relief on Earth has.
-bool is_usual_no_data(double stored) {
-  return stored == -9999 || stored == -99999 || stored == -32768 || stored == -32767 || stored < -3e38;
-}
-
-void report_warnings(const LoadedHeightmap& loaded, const EdgeSteps& steps) {
-  constexpr std::size_t kFewLevels = 1024;
-  const SourceFacts& facts = loaded.facts;
-  const Heightmap& map = loaded.map;
-  const double tall = relief(map);
-  const double extent = std::max(map.height.width * map.spacing.x, map.height.height * map.spacing.y);
-  if (tall == 0) fmt::print("warning    the map is level: it has no relief\n");
-  if (is_usual_no_data(facts.lowest)) {
-    fmt::print("warning    the lowest value stands for missing samples in many files: --no-data {:.9g}\n",
-               facts.lowest);
-  }
-  if (facts.is_integer && facts.levels > 1 && facts.levels <= kFewLevels) {
-    fmt::print("warning    {} of {:.0f} levels are in use: slopes are terraces, about {:.2g} high\n",
-               facts.levels, std::ldexp(1, facts.bits), tall / static_cast<double>(facts.levels - 1));
-  }
-  if (map.boundary == Boundary::tile && !steps.wraps) {
-    fmt::print(
-        "warning    the map is to tile, but its edges do not meet; --boundary open if it stands alone\n");
-  }
-  if (tall > extent) {
-    fmt::print(
-        "warning    the relief is {:.3g} times the extent; if the spacing is not right, give it with "
-        "--texel\n",
-        tall / extent);
-  }
-}
-
 void run_info(MapOptions& map_options, RunOptions& run_options) {
   apply_run_options(run_options);
   const LoadedHeightmap loaded = load_heightmap(map_options.path, map_options.load, run_options.memory);
   if (run_options.quiet) return;
-  const EdgeSteps steps = measure_edge_steps(loaded.map.height);
   report_file(map_options.path, loaded.facts);
-  report_map(loaded.map, steps);
-  report_warnings(loaded, steps);
+  report_map(loaded.map, measure_edge_steps(loaded.map.height));
+  for (const Warning& warning : loaded.warnings)
+    fmt::print("warning    {}\n", printable(user_message(warning)));
 }
 
 }  // namespace
@@ -99,7 +72,7 @@ void add_info_command(CLI::App& app) {
   add_run_options(*command, *run_options);
   command->footer(
       "Lengths and heights are in the map's world unit. Edges wrap when steps across them are like those "
-      "inside.\n"
+      "beside them or inside.\n"
       "Examples:\n"
       "  heightlight info bricks.png\n"
       "  heightlight info bricks.png --width 2 --relief 0.05\n"

@@ -1,76 +1,11 @@
 #include "cli/json_place.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "files/input_file.h"
+#include "files/printable.h"
 
 namespace heightlight {
-namespace {
-
-constexpr std::size_t kLargestFile = 64 << 20;
-
-std::string read_all(const std::filesystem::path& path) {
-  const File file = open_input(path);
-  std::string text;
-  std::vector<char> block(1 << 16);
-  while (const std::size_t count = std::fread(block.data(), 1, block.size(), file.get())) {
-    text.append(block.data(), count);
-    if (text.size() > kLargestFile) throw file_error(path, "is too large for a description of runs");
-  }
-  if (std::ferror(file.get())) throw file_error(path, "cannot be read to its end");
-  return text;
-}
-
-/// Texts from outside, fit for one line.
-std::string fit_to_print(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < 32 || c == 127; }, '?');
-  return text;
-}
-
-/// The library's message without the tag in brackets that it begins with.
-std::string without_tag(const std::string& message) {
-  const std::size_t tag_end = message.find("] ");
-  return tag_end == std::string::npos ? message : message.substr(tag_end + 2);
-}
-
-/// Of two members with one key the parser keeps the last, which hides a mistake. Sees one event after the
-/// other, and knows the keys of every object that is still open.
-class RepeatedKeys {
- public:
-  explicit RepeatedKeys(const std::filesystem::path& path) : path_(path) {}
-
-  void see(nlohmann::json::parse_event_t event, const nlohmann::json& value) {
-    if (event == nlohmann::json::parse_event_t::object_start) open_.emplace_back();
-    if (event == nlohmann::json::parse_event_t::object_end) open_.pop_back();
-    if (event != nlohmann::json::parse_event_t::key) return;
-    const auto& key = value.get_ref<const std::string&>();
-    if (!open_.back().insert(key).second) {
-      throw file_error(path_, "the key \"" + fit_to_print(key) + "\" stands twice in one object");
-    }
-  }
-
- private:
-  const std::filesystem::path& path_;
-  std::vector<std::set<std::string>> open_;
-};
-
-}  // namespace
-
-nlohmann::json read_json(const std::filesystem::path& path) {
-  const std::string text = read_all(path);
-  RepeatedKeys keys(path);
-  try {
-    return nlohmann::json::parse(text,
-                                 [&keys](int, nlohmann::json::parse_event_t event, nlohmann::json& value) {
-                                   keys.see(event, value);
-                                   return true;
-                                 });
-  } catch (const nlohmann::json::exception& error) {
-    throw file_error(path, fit_to_print(without_tag(error.what())));
-  }
-}
 
 JsonPlace::JsonPlace(const nlohmann::json& value, const std::filesystem::path& file)
     : JsonPlace(value, file, "") {}
@@ -79,7 +14,7 @@ JsonPlace::JsonPlace(const nlohmann::json& value, const std::filesystem::path& f
     : value_(value), file_(file), pointer_(std::move(pointer)) {}
 
 Error JsonPlace::error(const std::string& fault) const {
-  return file_error(file_, fit_to_print((pointer_.empty() ? "/" : pointer_) + ": " + fault));
+  return file_error(file_, printable((pointer_.empty() ? "/" : pointer_) + ": " + fault));
 }
 
 void JsonPlace::check_keys(const std::set<std::string>& known) const {

@@ -8,13 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "files/json_file.h"
 #include "heightlight/error.h"
 
 namespace heightlight {
-
-/// Reads a file of JSON. Throws Error naming it, with line and column where the text is no JSON or a key
-/// stands twice in one object.
-nlohmann::json read_json(const std::filesystem::path& path);
 
 /// A value somewhere in a file of JSON. Whatever is wrong with it is told in one line, which names the file
 /// and the place as a JSON pointer: "study.json: /maps/2/size: …".

@@ -66,14 +66,15 @@ void read_file(const std::filesystem::path& manifest, const JsonPlace& place, co
   LoadOptions& load = map.load;
   if (const auto texel = place.find("texel")) load.texel = read_spacing(*texel);
   if (const auto value = place.find("no_data")) load.no_data = value->number();
+  if (const auto part = place.find("part")) load.part = part->text();
   if (const auto channel = place.find("channel")) load.channel = channel->text();
   if (const auto shrink = place.find("shrink")) load.shrink = static_cast<int>(shrink->integer(1, 32768));
   if (const auto invert = place.find("invert")) load.invert = invert->flag();
 }
 
 ManifestMap read_map(const std::filesystem::path& manifest, const JsonPlace& place) {
-  place.check_keys({"file", "name", "relief", "width", "texel", "boundary", "no_data", "channel", "shrink",
-                    "invert", "shape", "size", "seed"});
+  place.check_keys({"file", "name", "relief", "width", "texel", "boundary", "no_data", "part", "channel",
+                    "shrink", "invert", "shape", "size", "seed"});
   const auto file = place.find("file");
   const auto shape = place.find("shape");
   if (file.has_value() == shape.has_value()) throw place.error("must have either a \"file\" or a \"shape\"");
@@ -82,8 +83,8 @@ ManifestMap read_map(const std::filesystem::path& manifest, const JsonPlace& pla
     place.check_keys({"shape", "size", "seed", "name", "relief", "width", "boundary"});
     read_shape(place, *shape, map);
   } else {
-    place.check_keys(
-        {"file", "name", "relief", "width", "texel", "boundary", "no_data", "channel", "shrink", "invert"});
+    place.check_keys({"file", "name", "relief", "width", "texel", "boundary", "no_data", "part", "channel",
+                      "shrink", "invert"});
     read_file(manifest, place, *file, map);
   }
   LoadOptions& load = map.load;
@@ -91,6 +92,11 @@ ManifestMap read_map(const std::filesystem::path& manifest, const JsonPlace& pla
   if (const auto width = place.find("width")) load.width = width->positive_number();
   if (load.width && load.texel) throw place.error("\"width\" and \"texel\" both give the spacing");
   if (const auto boundary = place.find("boundary")) load.boundary = read_boundary(*boundary);
+  try {
+    check_load_options(load);
+  } catch (const UsageError& error) {
+    throw place.error(error.what());
+  }
   // The heights of a shape run from 0 to 1; like an image's, they are stretched to a tenth of the width.
   if (shape && !load.relief) load.relief_share = 0.1;
   if (const auto name = place.find("name")) map.name = name->text();
@@ -239,7 +245,7 @@ std::string describe_manifest() {
       {"name": "cast", "visibility": "rays", "rays": 1000, "seed": 3, "save_bounces": true}
     ]
   }
-Only "maps" must be there. Maps also take "relief", "width", "channel", "shrink" and "invert", as simulate does.
+Only "maps" must be there. Maps also take "relief", "width", "part", "channel", "shrink" and "invert", as simulate does.
 )";
 }
 

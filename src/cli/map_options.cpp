@@ -2,6 +2,8 @@
 
 #include <omp.h>
 
+#include <charconv>
+
 #include "base/byte_size.h"
 #include "heightlight/error.h"
 
@@ -33,6 +35,17 @@ Spacing parse_spacing(const std::string& text) {
 
 }  // namespace
 
+// CLI11 takes "-1" for the largest number that there is, and so what is larger than that.
+CLI::Validator whole_number() {
+  const auto check = [](std::string& text) -> std::string {
+    std::uint64_t value = 0;
+    const auto [stop, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (fault == std::errc() && stop == text.data() + text.size()) return "";
+    return "'" + text + "' is not a whole number from 0 to 18446744073709551615";
+  };
+  return {check, ""};
+}
+
 void add_map_options(CLI::App& command, MapOptions& options) {
   command.add_option("MAP", options.path, "heightmap: PNG, EXR, TIFF, JPEG, TGA, HDR or Esri ASCII grid")
       ->required();
@@ -57,6 +70,7 @@ void add_load_options(CLI::App& command, LoadOptions& load) {
           "tile: the map repeats (images' default); open: nothing beyond (Esri grids' default)")
       ->check(CLI::IsMember({"tile", "open"}));
   command.add_option("--no-data", load.no_data, "the stored value that means a missing sample");
+  command.add_option("--part", load.part, "part to read of an EXR that has several, by name or number");
   command.add_option("--channel", load.channel, "channel to read, by name or number, where they differ");
   command
       .add_option("--shrink", load.shrink, "take the mean of N × N samples for one, for a quicker look (1)")
@@ -79,7 +93,7 @@ void add_resource_options(CLI::App& command, RunOptions& options) {
 
 void add_run_options(CLI::App& command, RunOptions& options) {
   add_resource_options(command, options);
-  command.add_option("--seed", options.seed, "seed of every random choice (1)");
+  command.add_option("--seed", options.seed, "seed of every random choice (1)")->check(whole_number());
 }
 
 void apply_run_options(RunOptions& options) {

@@ -15,7 +15,10 @@ struct MapOptions {
   LoadOptions load;
 };
 
-/// Adds `--relief --width --texel --boundary --no-data --channel --shrink --invert`.
+/// For options that take an unsigned number of 64 bits.
+CLI::Validator whole_number();
+
+/// Adds `--relief --width --texel --boundary --no-data --part --channel --shrink --invert`.
 void add_load_options(CLI::App& command, LoadOptions& load);
 
 /// Adds MAP and what add_load_options adds.

@@ -7,21 +7,21 @@
 #include "cli/commands.h"
 #include "cli/simulation.h"
 #include "cli/terminal_watch.h"
+#include "cli/warnings.h"
+#include "files/printable.h"
 
 namespace heightlight {
 namespace {
 
 void report(const SimulateOptions& options, const Simulation& simulation) {
-  const std::string missed = missed_error(simulation.evidence);
-  if (!missed.empty())
-    fmt::print(stderr, "heightlight: warning: {}: {}\n", options.map.path.string(), missed);
+  tell_warnings(options.map.path, simulation.warnings);
   if (options.run.quiet) return;
   const StepTimes& own = simulation.seconds;
   const Evidence& evidence = simulation.evidence;
   const std::string links = evidence.links > 0 ? fmt::format(", {} links ({})", evidence.links,
                                                              format_byte_size(evidence.link_bytes))
                                                : "";
-  fmt::print("{}: {} x {} texels{} in {:.1f} s\n", options.map.path.string(), simulation.width,
+  fmt::print("{}: {} x {} texels{} in {:.1f} s\n", printable(options.map.path), simulation.width,
              simulation.height, links, own.total);
   fmt::print("visibility {:.1f} s, bounces {:.1f} s, curves {:.1f} s, output {:.1f} s\n",
              evidence.seconds.visibility, evidence.seconds.bounces, own.curves, own.output);
@@ -35,7 +35,7 @@ void report(const SimulateOptions& options, const Simulation& simulation) {
       "energy: sum of all bounces is 1 within {:.1g}; after {} of them {:.2g} is left on average ({:.2g} at "
       "most)\n",
       evidence.energy->sum_max_error, options.bounces, evidence.energy->tail_mean, evidence.energy->tail_max);
-  fmt::print("results in {}\n", options.folder.string());
+  fmt::print("results in {}\n", printable(options.folder));
 }
 
 }  // namespace
@@ -67,7 +67,10 @@ void add_simulate_command(CLI::App& app) {
       "  heightlight simulate dem.tif -o dem --texel 50 --boundary open  terrain in metres");
   command->callback([options] {
     apply_run_options(options->run);
-    report(*options, simulate_map(*options, terminal_watch(options->run.quiet)));
+    check_simulate_options(*options);
+    Plots plots;
+    report(*options, simulate_map(*options, plots, terminal_watch(options->run.quiet)));
+    plots.check();
   });
 }
 

@@ -7,6 +7,7 @@
 #include "cli/simulation.h"
 #include "cli/simulation_files.h"
 #include "files/input_file.h"
+#include "files/printable.h"
 #include "heightlight/error.h"
 #include "plot/curve_plots.h"
 #include "relief/relief_study.h"
@@ -58,16 +59,17 @@ Request make_request(const SimulateOptions& options, const Albedo& albedo, const
   return request;
 }
 
-/// The curves, and their figure with a study of the relief.
-void write_curves(StagedFolder& folder, const SimulateOptions& options, const Surface& surface,
-                  const std::vector<BounceCurves>& curves, const Watch& watch) {
-  write_curves_csv(folder.file("curves.csv"), curves);
+/// The figure of the curves, with a study of the relief.
+void plot_curves_of(StagedFolder& folder, const SimulateOptions& options, const Surface& surface,
+                    const std::vector<BounceCurves>& curves, Plots& plots, const Watch& watch) {
+  if (!plots.possible()) return;
   const ReliefStudy study{.relief_shares = kStudiedReliefs, .largest_side = kStudySide, .bins = kStudyBins};
-  plot_curves(folder.file("curves.svg"), folder.file("curves.png"),
-              {.ambient_occlusion = curves[0],
-               .sky_view_factor = curves[1],
-               .reliefs = study_reliefs(surface.map, study, watch),
-               .title = options.map.path.filename().string()});
+  const CurvePlotInput input{.ambient_occlusion = curves[0],
+                             .sky_view_factor = curves[1],
+                             .reliefs = study_reliefs(surface.map, study, watch),
+                             .title = printable(options.map.path.filename())};
+  plots.draw(folder, {"curves.svg", "curves.png"},
+             [&](const auto& paths) { plot_curves(paths[0], paths[1], input); });
 }
 
 void write_maps(StagedFolder& folder, const Surface& surface, const Results& results,
@@ -94,15 +96,17 @@ void check_simulate_options(const SimulateOptions& options) {
   }
 }
 
-Simulation simulate_map(const SimulateOptions& options, const Watch& watch) {
+Simulation simulate_map(const SimulateOptions& options, Plots& plots, const Watch& watch) {
   Stopwatch total;
   Stopwatch lap;
   Simulation simulation;
   StepTimes& seconds = simulation.seconds;
   check_simulate_options(options);
-  StagedFolder folder(options.folder, input_files(options), simulation_file_names(options.bounces));
+  StagedFolder folder(options.folder, input_files(options), simulation_file_names(options.bounces),
+                      "summary.json");
   LoadedHeightmap loaded = load_input(options);
   simulation.facts = loaded.facts;
+  simulation.warnings = loaded.warnings;
   const Surface surface = build_surface(std::move(loaded.map));
   simulation.width = surface.width();
   simulation.height = surface.height();
@@ -117,13 +121,17 @@ Simulation simulate_map(const SimulateOptions& options, const Watch& watch) {
     return solve(surface, request);
   });
   simulation.evidence = results.evidence;
+  for (const std::string& fault : find_faults(results.evidence)) simulation.warnings.push_back({fault});
   simulation.evidence.estimated_bytes += bytes_held(options, surface, albedo);
   lap.lap();
-  write_curves(folder, options, surface, sink.curves(), watch);
+  const std::vector<BounceCurves> curves = sink.curves();
+  write_curves_csv(folder.file("curves.csv"), curves);
+  plot_curves_of(folder, options, surface, curves, plots, watch);
   seconds.curves = results.evidence.seconds.sink + lap.lap();
   write_maps(folder, surface, results, sink);
   seconds.output = lap.lap();
   seconds.total = total.lap();
+  simulation.files = folder.written();
   write_summary(folder.file("summary.json"), options, surface, albedo, simulation);
   folder.commit();
   return simulation;

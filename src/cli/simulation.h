@@ -6,7 +6,9 @@
 
 #include "cli/albedo.h"
 #include "cli/map_options.h"
+#include "cli/plots.h"
 #include "cli/visibility_options.h"
+#include "files/file_record.h"
 #include "heightlight/files.h"
 #include "heightlight/watch.h"
 
@@ -40,7 +42,9 @@ struct Simulation {
   int width = 0;  ///< of the map, in texels
   int height = 0;
   Evidence evidence;
+  std::vector<Warning> warnings;  ///< of the map, and of an error that was missed
   StepTimes seconds;
+  std::vector<FileRecord> files;  ///< that the folder holds beside the summary
 };
 
 /// Throws UsageError naming the option that is out of its range or contradicts another.
@@ -49,7 +53,7 @@ void check_simulate_options(const SimulateOptions& options);
 /// All that `heightlight simulate` does for one map, from its file to the committed folder. `options.run` has
 /// been applied. Throws Error naming what could not be done, OutputError where a result could not be written,
 /// UsageError, Cancelled; the folder then is as it was.
-Simulation simulate_map(const SimulateOptions& options, const Watch& watch);
+Simulation simulate_map(const SimulateOptions& options, Plots& plots, const Watch& watch);
 
 /// Writes `summary.json`. Throws OutputError.
 void write_summary(const std::filesystem::path& path, const SimulateOptions& options, const Surface& surface,

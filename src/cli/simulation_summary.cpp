@@ -11,6 +11,8 @@ void write_summary(const std::filesystem::path& path, const SimulateOptions& opt
   nlohmann::ordered_json summary;
   summary["version"] = HEIGHTLIGHT_VERSION;
   summary["map"] = describe_map(options.map.path, simulation.facts.sha256, surface);
+  summary["files"] = describe_files(simulation.files);
+  summary["warnings"] = describe_warnings(simulation.warnings);
   summary.update(describe_evidence(evidence));
   summary["bounces"] = options.bounces;
   summary["albedo"] = albedo.varying.empty() ? nlohmann::ordered_json(albedo.constant)

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "cli/commands.h"
+#include "cli/map_options.h"
 #include "files/image_file.h"
 #include "files/staged_output.h"
 #include "heightlight/error.h"
@@ -69,7 +70,7 @@ void add_synth_command(CLI::App& app) {
       ->required()
       ->type_name("FILE");
   command->add_option("--size", options->size, "texels on each side (512)");
-  command->add_option("--seed", options->seed, "seed of fbm, cobbles and brick (1)");
+  command->add_option("--seed", options->seed, "seed of fbm, cobbles and brick (1)")->check(whole_number());
   command->footer(
       describe_shapes() +
       "Heights run from 0 to 1. Of a .png, other commands stretch them to the relief; of an .exr they\n"

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -11,18 +10,17 @@ namespace heightlight {
 
 /// The samples of one channel, and what to call it.
 struct ChannelSamples {
-  Image<double> values;
-  std::string name;  ///< "Y", "R", or "grey (R = G = B)"
+  Image<double> values;         ///< NaN where transparent
+  std::string name;             ///< "Y", "R", or "grey (R = G = B)"
+  std::size_t transparent = 0;  ///< samples that are
+  std::vector<std::string> warnings = {};
 };
 
 /// Takes the channel that `wanted` names (any case) or counts (from 0); by default the only one, or grey
-/// where all but alpha agree at every texel. Throws Error naming `path` where they differ, UsageError where
-/// `wanted` is not there.
-ChannelSamples pick_channel(const std::filesystem::path& path, const StoredImage& image,
+/// where all but alpha agree at every texel that is not transparent. Alpha 0 is then a hole, unless all of it
+/// is 0; beside a channel that was chosen, it may mean anything. Throws Error naming the file where channels
+/// differ, UsageError where `wanted` is not there.
+ChannelSamples pick_channel(const InputFile& file, const StoredImage& image,
                             const std::optional<std::string>& wanted);
-
-/// Index of the channel that `wanted` names or counts. Throws UsageError naming `path` and the channels.
-std::size_t find_channel(const std::filesystem::path& path, const std::vector<std::string>& channels,
-                         const std::string& wanted);
 
 }  // namespace heightlight

@@ -3,10 +3,13 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "base/byte_size.h"
 #include "files/input_file.h"
 #include "heightlight/error.h"
 #include "heightlight/files.h"
@@ -34,15 +37,36 @@ constexpr std::array<std::string_view, kColumnCount> kNames{
     "ao_kind", "bin", "ao_lo", "ao_hi", "ao_mean", "count", "bounce", "mean", "stddev", "p05", "p50", "p95"};
 constexpr double kSlack = 1e-6;  // shares as measured stray out of [0, 1] by rounding
 
-std::string read_all(const std::filesystem::path& path) {
-  const File file = open_input(path);
-  std::string text;
-  std::array<char, 65536> chunk{};
-  while (const std::size_t got = std::fread(chunk.data(), 1, chunk.size(), file.get())) {
-    text.append(chunk.data(), got);
+/// Lines of a text file one after the other, none of which is long: what is no table is found at once.
+class LineReader {
+ public:
+  explicit LineReader(const InputFile& file) : file_(file), stream_(file.rewound()) {}
+
+  /// Without its end; a byte-order mark before the first is left out. Nothing at the end of the file.
+  std::optional<std::string_view> next() {
+    if (!std::fgets(buffer_.data(), static_cast<int>(buffer_.size()), stream_)) {
+      if (std::ferror(stream_)) throw file_.error("cannot be read to its end");
+      return std::nullopt;
+    }
+    ++line_;
+    std::string_view line = buffer_.data();
+    if (!line.ends_with('\n') && line.size() + 1 == buffer_.size()) throw error("longer than any of curves");
+    constexpr std::string_view kMark = "\xef\xbb\xbf";
+    if (line_ == 1 && line.starts_with(kMark)) line.remove_prefix(kMark.size());
+    while (line.ends_with('\n') || line.ends_with('\r')) line.remove_suffix(1);
+    return line;
   }
-  return text;
-}
+
+  Error error(const std::string& fault) const {
+    return file_.error("line " + std::to_string(line_) + ": " + fault);
+  }
+
+ private:
+  const InputFile& file_;
+  std::FILE* stream_;
+  std::array<char, 65536> buffer_{};
+  std::size_t line_ = 0;
+};
 
 std::vector<std::string_view> split(std::string_view line, char separator) {
   std::vector<std::string_view> fields;
@@ -54,42 +78,48 @@ std::vector<std::string_view> split(std::string_view line, char separator) {
   }
 }
 
-/// Reads one line after the other, and knows where it is for messages.
+/// Takes one line after the other, and knows where it is for messages.
 class CurvesReader {
  public:
-  explicit CurvesReader(const std::filesystem::path& path) : path_(path) {}
+  explicit CurvesReader(const InputFile& file) : file_(file), lines_(file) {}
 
-  std::vector<BounceCurves> read() {
-    const std::string text = read_all(path_);
-    for (std::string_view line : split(text, '\n')) {
-      ++line_;
-      if (line.ends_with('\r')) line.remove_suffix(1);
-      if (line_ == 1) {
-        find_columns(line);
-      } else if (!line.empty()) {
-        add(split(line, ','));
-      }
+  std::vector<RunCurves> read() {
+    if (const auto header = lines_.next()) find_columns(*header);
+    while (const auto line = lines_.next()) {
+      if (!line->empty()) add(split(*line, ','));
     }
-    finish();
-    return std::move(curves_);
+    if (runs_.empty()) throw file_.error("holds no curves");
+    finish(runs_.back().curves);
+    return std::move(runs_);
   }
 
  private:
-  [[noreturn]] void fail(const std::string& fault) const {
-    throw file_error(path_, "line " + std::to_string(line_) + ": " + fault);
-  }
+  [[noreturn]] void fail(const std::string& fault) const { throw lines_.error(fault); }
 
   void find_columns(std::string_view header) {
     const std::vector<std::string_view> names = split(header, ',');
     fields_ = names.size();
+    const auto find = [&](std::string_view name) {
+      return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+    };
     for (std::size_t c = 0; c < kColumnCount; ++c) {
-      const auto found = std::find(names.begin(), names.end(), kNames[c]);
-      if (found == names.end()) {
-        throw file_error(path_,
-                         "has no column '" + std::string(kNames[c]) + "': not a table of bounce curves");
-      }
-      place_[c] = static_cast<std::size_t>(found - names.begin());
+      place_[c] = find(kNames[c]);
+      if (place_[c] == fields_)
+        throw file_.error("has no column '" + std::string(kNames[c]) + "': not a table of bounce curves");
     }
+    run_place_ = find("run");
+    map_place_ = find("map");
+  }
+
+  /// What the optional column holds in this row; empty where there is no such column.
+  std::string text_at(std::size_t place) const {
+    return place < fields_ ? std::string(row_[place]) : std::string();
+  }
+
+  void begin_run(const std::string& name) {
+    if (!runs_.empty()) finish(runs_.back().curves);
+    if (!names_.insert(name).second) fail("the run " + name + " again: runs are mixed");
+    runs_.push_back({.run = name, .map = text_at(map_place_), .curves = {}});
   }
 
   template <class Number>
@@ -117,24 +147,26 @@ class CurvesReader {
     if (row_.size() != fields_) {
       fail(std::to_string(row_.size()) + " fields where the header has " + std::to_string(fields_));
     }
+    const std::string run = text_at(run_place_);
+    if (runs_.empty() || runs_.back().run != run) begin_run(run);
     const AoKind of_row = kind();
-    if (curves_.empty() || curves_.back().kind != of_row) begin_kind(of_row);
+    if (curves().empty() || curves().back().kind != of_row) begin_kind(of_row);
     const int bounce = number<int>(kBounce);
     if (bounce == 0) begin_bin();
     add_bounce(bounce);
   }
 
   void begin_kind(AoKind of_row) {
-    for (const BounceCurves& before : curves_) {
+    for (const BounceCurves& before : curves()) {
       if (before.kind == of_row) {
         fail(std::string(to_string(of_row)) + " again: the two kinds of AO are mixed");
       }
     }
-    curves_.push_back({of_row, 0, {}});
+    curves().push_back({of_row, 0, {}});
   }
 
   void begin_bin() {
-    std::vector<CurveBin>& filled = curves_.back().filled;
+    std::vector<CurveBin>& filled = curves().back().filled;
     CurveBin bin;
     bin.bin = number<int>(kBin);
     bin.ao_lo = number<double>(kLow);
@@ -153,7 +185,7 @@ class CurvesReader {
   }
 
   void add_bounce(int bounce) {
-    std::vector<CurveBin>& filled = curves_.back().filled;
+    std::vector<CurveBin>& filled = curves().back().filled;
     if (filled.empty() || number<int>(kBin) != filled.back().bin ||
         bounce != static_cast<int>(filled.back().bounces.size())) {
       fail("bounce " + std::to_string(bounce) + " does not follow on the one before it in its bin");
@@ -168,36 +200,53 @@ class CurvesReader {
   }
 
   /// The number of bins, and the tail, which the file does not hold: by conservation.
-  void finish() {
-    for (BounceCurves& one : curves_) {
+  void finish(std::vector<BounceCurves>& curves) const {
+    for (BounceCurves& one : curves) {
       const std::size_t bounces = one.filled.front().bounces.size();
       one.bins = static_cast<int>(std::lround(1 / (one.filled.front().ao_hi - one.filled.front().ao_lo)));
       for (CurveBin& bin : one.filled) {
         if (bin.bounces.size() != bounces) {
-          throw file_error(path_, std::string(to_string(one.kind)) + " bin " + std::to_string(bin.bin) +
-                                      " has " + std::to_string(bin.bounces.size()) +
-                                      " bounces where the first bin has " + std::to_string(bounces));
+          throw file_.error(std::string(to_string(one.kind)) + " bin " + std::to_string(bin.bin) + " has " +
+                            std::to_string(bin.bounces.size()) + " bounces where the first bin has " +
+                            std::to_string(bounces));
         }
         double sum = 0;
         for (const BounceStatistics& bounce : bin.bounces) sum += bounce.mean;
         bin.tail.mean = std::max(0.0, 1 - sum);
       }
     }
-    if (curves_.empty()) throw file_error(path_, "holds no curves");
   }
 
-  const std::filesystem::path& path_;
-  std::size_t line_ = 0;
+  std::vector<BounceCurves>& curves() { return runs_.back().curves; }
+
+  const InputFile& file_;
+  LineReader lines_;
   std::size_t fields_ = 0;
   std::array<std::size_t, kColumnCount> place_{};
+  std::size_t run_place_ = 0;
+  std::size_t map_place_ = 0;
   std::vector<std::string_view> row_;
-  std::vector<BounceCurves> curves_;
+  std::vector<RunCurves> runs_;
+  std::set<std::string> names_;
 };
 
 }  // namespace
 
+std::vector<RunCurves> read_run_curves(const std::filesystem::path& path, std::uint64_t memory_limit) {
+  const InputFile file(path);
+  // A line of text is longer than what becomes of it.
+  if (file.size() > memory_limit) {
+    throw file.error("reading it may take " + format_byte_size(file.size()) + " of memory, and " +
+                         format_byte_size(memory_limit) + " are allowed",
+                     "memory");
+  }
+  return CurvesReader(file).read();
+}
+
 std::vector<BounceCurves> read_curves_csv(const std::filesystem::path& path) {
-  return CurvesReader(path).read();
+  std::vector<RunCurves> runs = read_run_curves(path, ~std::uint64_t{0});
+  if (runs.size() > 1) throw file_error(path, "holds the curves of several runs");
+  return std::move(runs[0].curves);
 }
 
 }  // namespace heightlight

@@ -79,20 +79,20 @@ HeaderWords read_header(WordReader& words, std::string& first_value) {
   return header;
 }
 
-std::uint64_t get_count(const std::filesystem::path& path, const HeaderWords& header, Keyword keyword) {
+std::uint64_t get_count(const InputFile& file, const HeaderWords& header, Keyword keyword) {
   const std::string name = kKeywords[keyword];
-  if (!header[keyword]) throw file_error(path, "the header lacks " + name);
+  if (!header[keyword]) throw file.error("the header lacks " + name);
   const double count = *header[keyword];
   if (!(count >= 0 && count <= 1e15) || count != std::floor(count)) {
-    throw file_error(path, name + " is not a number of samples");
+    throw file.error(name + " is not a number of samples");
   }
   return static_cast<std::uint64_t>(count);
 }
 
-double get_cell_size(const std::filesystem::path& path, const HeaderWords& header, Keyword axis) {
+double get_cell_size(const InputFile& file, const HeaderWords& header, Keyword axis) {
   const std::optional<double> size = header[axis] ? header[axis] : header[kCell];
-  if (!size) throw file_error(path, "the header lacks cellsize");
-  if (!(*size > 0) || !std::isfinite(*size)) throw file_error(path, "the cell size is not a positive number");
+  if (!size) throw file.error("the header lacks cellsize");
+  if (!(*size > 0) || !std::isfinite(*size)) throw file.error("the cell size is not a positive number");
   return *size;
 }
 
@@ -117,25 +117,25 @@ void read_values(WordReader& words, std::string_view word, Image<double>& values
 
 }  // namespace
 
-EsriGrid read_esri_grid(const std::filesystem::path& path, std::uint64_t memory_limit) {
-  WordReader words(path);
+EsriGrid read_esri_grid(const InputFile& file, std::uint64_t memory_limit) {
+  WordReader words(file);
   std::string first_value;
   const HeaderWords found = read_header(words, first_value);
-  const std::uint64_t columns = get_count(path, found, kColumns);
-  const std::uint64_t rows = get_count(path, found, kRows);
-  check_map_size(path, columns, rows, sizeof(double) + sizeof(float), memory_limit);
+  const std::uint64_t columns = get_count(file, found, kColumns);
+  const std::uint64_t rows = get_count(file, found, kRows);
+  check_map_size(file.path(), columns, rows, sizeof(double) + sizeof(float), memory_limit);
   // Each value takes a digit and a space at least: a header that promises more is not worth the memory.
-  if (columns * rows > std::filesystem::file_size(path) / 2 + 1) {
-    throw file_error(path, "has too few values: its header announces " + std::to_string(columns) + " x " +
-                               std::to_string(rows));
+  if (columns * rows > file.size() / 2 + 1) {
+    throw file.error("has too few values: its header announces " + std::to_string(columns) + " x " +
+                     std::to_string(rows));
   }
 
   EsriGrid grid;
   EsriHeader& header = grid.header;
   header.columns = static_cast<int>(columns);
   header.rows = static_cast<int>(rows);
-  header.cell_x = get_cell_size(path, found, kCellX);
-  header.cell_y = get_cell_size(path, found, kCellY);
+  header.cell_x = get_cell_size(file, found, kCellX);
+  header.cell_y = get_cell_size(file, found, kCellY);
   header.west = get_edge(found, kWestCorner, kWestCentre, header.cell_x);
   header.south = get_edge(found, kSouthCorner, kSouthCentre, header.cell_y);
   header.no_data = found[kNoData];

@@ -68,15 +68,17 @@ Json describe_visibility(const Evidence& evidence) {
   return visibility;
 }
 
-Json describe_energy(const EnergyCheck& energy) {
+Json describe_energy(const Evidence& evidence) {
+  const EnergyCheck& energy = *evidence.energy;
   return {{"row_sum_max_error", energy.row_sum_max_error},
+          {"row_sum_rmse", energy.row_sum_rmse},
           {"sum_max_error", energy.sum_max_error},
           {"mean_total_over_pi", energy.mean_total_over_pi},
           {"tail_mean", energy.tail_mean},
           {"tail_max", energy.tail_max},
           {"spectral_radius", energy.spectral_radius},
-          {"solver_residual", energy.solver_residual},
-          {"solver_iterations", energy.solver_iterations}};
+          {"solver_residual", evidence.solver_residual},
+          {"solver_iterations", evidence.solver_iterations}};
 }
 
 }  // namespace
@@ -98,12 +100,25 @@ Json describe_evidence(const Evidence& evidence) {
   json["visibility"] = describe_visibility(evidence);
   if (evidence.has_links) json["links"] = {{"count", evidence.links}, {"bytes", evidence.link_bytes}};
   if (!evidence.bounce_rmse.empty()) json["bounces_rmse"] = evidence.bounce_rmse;
-  if (evidence.energy) json["energy"] = describe_energy(*evidence.energy);
+  if (evidence.energy) json["energy"] = describe_energy(evidence);
   if (evidence.seen) {
     json["seen"] = {{"expected_sky_view_factor", evidence.seen->expected},
                     {"mean_sky_view_factor", evidence.seen->mean},
                     {"deep_sky_view_factor", evidence.seen->deep}};
   }
+  return json;
+}
+
+Json describe_files(const std::vector<FileRecord>& files) {
+  Json json = Json::array();
+  for (const FileRecord& file : files) json.push_back(describe_file(file));
+  return json;
+}
+
+Json describe_warnings(const std::vector<Warning>& warnings) {
+  Json json = Json::array();
+  for (const Warning& warning : warnings)
+    json.push_back(warning.message + (warning.remedy.empty() ? "" : " (" + warning.remedy + ")"));
   return json;
 }
 

@@ -4,7 +4,9 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "files/file_record.h"
 #include "heightlight/evidence.h"
+#include "heightlight/files.h"
 #include "heightlight/surface.h"
 
 // What every file that tells of a solution says, with the same keys wherever it stands: summary.json,
@@ -18,6 +20,12 @@ nlohmann::ordered_json describe_map(const std::filesystem::path& path, const std
 
 /// The keys `visibility`, `links`, `energy` and `seen`, as far as the evidence has them.
 nlohmann::ordered_json describe_evidence(const Evidence& evidence);
+
+/// `files`: name, size and checksum of each.
+nlohmann::ordered_json describe_files(const std::vector<FileRecord>& files);
+
+/// `warnings`: a line each, with the quantity that would help in parentheses.
+nlohmann::ordered_json describe_warnings(const std::vector<Warning>& warnings);
 
 /// The solution's own part of `time_s`.
 nlohmann::ordered_json describe_times(const SolveTimes& seconds);

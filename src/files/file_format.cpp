@@ -30,6 +30,29 @@ constexpr std::array kMagics{
     Magic{"#?R"sv, FileFormat::hdr},  // #?RADIANCE or #?RGBE
 };
 
+/// What people take for heightmaps and this program does not read, and what to do about it.
+struct Unread {
+  std::string_view bytes;
+  const char* what;
+  const char* remedy;
+};
+
+constexpr const char* kConvert = "convert it to PNG (16 bits), TIFF or EXR";
+constexpr const char* kUnpack = "unpack it";
+constexpr std::array kUnread{
+    Unread{"BM"sv, "a BMP image, of 8 bits at most", kConvert},
+    Unread{"GIF8"sv, "a GIF image, of 8 bits at most", kConvert},
+    Unread{"8BPS"sv, "a Photoshop document", kConvert},
+    Unread{"DDS "sv, "a DDS texture", kConvert},
+    Unread{"\xabKTX"sv, "a KTX texture", kConvert},
+    Unread{"\0\0\0\x0cjP  "sv, "a JPEG 2000 image", kConvert},
+    Unread{"\x89HDF"sv, "an HDF5 or NetCDF file", kConvert},
+    Unread{"CDF"sv, "a NetCDF file", kConvert},
+    Unread{"\x93NUMPY"sv, "a NumPy array", kConvert},
+    Unread{"PK\x03\x04"sv, "a zip archive", kUnpack},
+    Unread{"\x1f\x8b"sv, "a gzip archive", kUnpack},
+};
+
 int byte_at(std::string_view head, std::size_t place) { return static_cast<unsigned char>(head[place]); }
 
 /// Targa has no magic: its 18-byte header counts as one when every field holds one of its few legal values.
@@ -56,6 +79,26 @@ bool looks_like_esri_grid(const std::filesystem::path& path, std::string_view he
   const std::size_t start = std::min(head.find_first_not_of(" \t\r\n"), head.size());
   const std::string keyword = to_lower(std::string(head.substr(start, 6)));
   return keyword.starts_with("ncols") || keyword.starts_with("nrows");
+}
+
+/// Heights one after the other, as terrain tools and game engines keep them.
+bool is_named_raw(const std::filesystem::path& path) {
+  constexpr std::array kRaw{".raw", ".r8", ".r16", ".r32", ".bin", ".bil", ".flt", ".hgt", ".ter"};
+  const std::string extension = to_lower(path.extension().string());
+  return std::find(kRaw.begin(), kRaw.end(), extension) != kRaw.end();
+}
+
+std::string explain_unread(const std::filesystem::path& path, std::string_view head) {
+  for (const Unread& kind : kUnread) {
+    if (!head.starts_with(kind.bytes)) continue;
+    if (kind.bytes.size() == 2 && kind.bytes == "BM" && head.size() < 54) continue;  // a whole header
+    return std::string("is ") + kind.what + "; " + kind.remedy;
+  }
+  if (head.starts_with("RIFF") && head.substr(8).starts_with("WEBP"))
+    return std::string("is a WebP image, of 8 bits at most; ") + kConvert;
+  if (is_named_raw(path))
+    return std::string("holds raw samples, without a header that gives their size and type; ") + kConvert;
+  return "";
 }
 
 bool is_text(std::string_view head) {
@@ -85,17 +128,21 @@ const char* to_string(FileFormat format) {
   return "";
 }
 
-FileFormat recognise_format(const std::filesystem::path& path) {
-  const File file = open_input(path);
+FileFormat recognise_format(const InputFile& file) {
   std::array<char, 64> buffer{};
-  const std::string_view head(buffer.data(), std::fread(buffer.data(), 1, buffer.size(), file.get()));
+  std::string_view head(buffer.data(), std::fread(buffer.data(), 1, buffer.size(), file.rewound()));
   for (const Magic& magic : kMagics) {
     if (head.starts_with(magic.bytes)) return magic.format;
   }
-  if (looks_like_esri_grid(path, head)) return FileFormat::esri_grid;
+  if (head.starts_with("\xff\xfe") || head.starts_with("\xfe\xff"))
+    throw file.error("is text in UTF-16; save it as UTF-8, or as plain ASCII");
+  if (head.starts_with("\xef\xbb\xbf")) head.remove_prefix(3);
+  const std::string unread = explain_unread(file.path(), head);
+  if (!unread.empty()) throw file.error(unread);
+  if (looks_like_esri_grid(file.path(), head)) return FileFormat::esri_grid;
   if (looks_like_targa(head)) return FileFormat::targa;
-  throw file_error(path, std::string(is_text(head) ? "holds text, not an image" : "is no image") +
-                             " (known: PNG, EXR, TIFF, JPEG, TGA, HDR, Esri ASCII grid)");
+  throw file.error(std::string(is_text(head) ? "holds text, not an image" : "is no image") +
+                   " (known: PNG, EXR, TIFF, JPEG, TGA, HDR, Esri ASCII grid)");
 }
 
 }  // namespace heightlight

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <filesystem>
+#include "files/input_file.h"
 
 namespace heightlight {
 
@@ -11,7 +11,8 @@ enum class FileFormat { png, openexr, tiff, jpeg, hdr, targa, esri_grid };
 const char* to_string(FileFormat format);
 
 /// Recognises a file by its first bytes; a name in `.asc` makes an Esri grid of what is no image. Throws
-/// Error naming the file when it can't be read or is none of these.
-FileFormat recognise_format(const std::filesystem::path& path);
+/// Error naming the file when it is none of these, with what it is and what to do about it where that can be
+/// told.
+FileFormat recognise_format(const InputFile& file);
 
 }  // namespace heightlight

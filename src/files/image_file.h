@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "files/input_file.h"
 #include "heightlight/image.h"
 
 namespace heightlight {
@@ -50,7 +51,7 @@ using FillRows = std::function<void(int first, int count, float* samples)>;
 void write_texture(const std::filesystem::path& path, const TextureLayout& layout, const FillRows& fill);
 
 /// SHA-256 of a file's bytes, hexadecimal. Throws Error.
-std::string sha256_of_file(const std::filesystem::path& path);
+std::string sha256_of_file(const InputFile& file);
 /// Of these bytes.
 std::string sha256_of(std::string_view bytes);
 

@@ -5,9 +5,10 @@
 #include <array>
 #include <memory>
 
+#include "files/exr_header.h"
 #include "files/input_file.h"
 #include "files/map_size.h"
-#include "files/tiff_no_data.h"
+#include "files/named.h"
 
 namespace heightlight {
 namespace {
@@ -37,60 +38,99 @@ const std::array kStoredTypes{
     StoredType{OIIO::TypeDesc::DOUBLE, OIIO::TypeDesc::DOUBLE, "double", make_samples<double>},
 };
 
-const StoredType& find_stored_type(const std::filesystem::path& path, const OIIO::ImageSpec& spec) {
+const StoredType& find_stored_type(const InputFile& file, const OIIO::ImageSpec& spec) {
   for (const StoredType& type : kStoredTypes) {
     if (spec.format.basetype == type.stored) return type;
   }
-  throw file_error(
-      path, std::string("its samples are of type ") + spec.format.c_str() + ", which is not supported");
+  throw file.error(std::string("its samples are of type ") + spec.format.c_str() +
+                   ", which is not supported");
 }
 
 /// OpenImageIO 2.4 leaves zeros or garbage, without a word, where a TIFF's samples are 64-bit in tiles or in
 /// a single row, or of more than 16 bits without filling their type.
-void check_tiff_layout(const std::filesystem::path& path, const OIIO::ImageSpec& spec, int bits) {
+void check_tiff_layout(const InputFile& file, const OIIO::ImageSpec& spec, int bits) {
   const int type_bits = static_cast<int>(spec.format.size()) * 8;
-  if (type_bits == 64 && (spec.tile_width > 0 || spec.height == 1)) {
-    throw file_error(
-        path, "64-bit TIFF samples in tiles or in a single row are not supported; use strips or 32 bits");
-  }
-  if (bits > 16 && bits != type_bits) {
-    throw file_error(path, std::to_string(bits) + "-bit TIFF samples are not supported; use 16 or 32 bits");
-  }
+  if (type_bits == 64 && (spec.tile_width > 0 || spec.height == 1))
+    throw file.error(
+        "64-bit TIFF samples in tiles or in a single row are not supported; use strips or 32 bits");
+  if (bits > 16 && bits != type_bits)
+    throw file.error(std::to_string(bits) + "-bit TIFF samples are not supported; use 16 or 32 bits");
 }
 
-/// Messages of libraries may hold several lines and the path once more.
-std::string first_line(const std::string& text) {
-  return text.empty() ? "damaged or truncated" : text.substr(0, text.find('\n'));
+/// What a library must not be asked to read.
+void check_before_opening(const InputFile& file, FileFormat format, StoredImage& image) {
+  if (format == FileFormat::openexr) check_exr_headers(file);
+  if (format != FileFormat::tiff) return;
+  image.tiff = read_tiff_facts(file);
+  if (image.tiff->is_cmyk_in_tiles)
+    throw file.error("a CMYK image in tiles is not supported; convert it to grey or RGB");
 }
 
-std::unique_ptr<OIIO::ImageInput> open_image(const std::filesystem::path& path, FileFormat format,
+std::unique_ptr<OIIO::ImageInput> open_image(const InputFile& file, FileFormat format,
                                              OIIO::ImageSpec& spec) {
   std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(to_string(format));
-  if (!input) throw file_error(path, "cannot be read: no reader for " + std::string(to_string(format)));
+  if (!input) throw file.error("cannot be read: no reader for " + std::string(to_string(format)));
   OIIO::ImageSpec configuration;
   configuration.attribute("oiio:UnassociatedAlpha", 1);  // heights are not to be multiplied by alpha
-  if (!input->open(path.string(), spec, configuration)) {
-    throw file_error(
-        path, std::string("cannot be read as ") + to_string(format) + ": " + first_line(input->geterror()));
+  if (!input->open(file.name_for_libraries(), spec, configuration)) {
+    throw file.error(std::string("cannot be read as ") + to_string(format) + ": " +
+                     file.explain(input->geterror()));
   }
   return input;
 }
 
+std::vector<std::string> part_names(OIIO::ImageInput& input) {
+  std::vector<std::string> names;
+  for (int part = 0; input.seek_subimage(part, 0); ++part) {
+    names.push_back(input.spec().get_string_attribute("oiio:subimagename", std::to_string(part)));
+  }
+  static_cast<void>(input.geterror());  // that there is none after the last
+  return names;
+}
+
+/// Which image of the file to read.
+int choose_part(const InputFile& file, FileFormat format, OIIO::ImageInput& input,
+                const std::optional<std::string>& part) {
+  if (format != FileFormat::openexr) {
+    if (part) throw UsageError(file.path().string() + ": has no parts; only EXR files have");
+    return 0;
+  }
+  const std::vector<std::string> names = part_names(input);
+  if (part) return static_cast<int>(find_named("part", file, names, *part));
+  if (names.size() <= 1) return 0;
+  throw file.error("has " + std::to_string(names.size()) + " parts: " + join_names(names) + "; choose one",
+                   "part");
+}
+
+/// OpenImageIO turns grey of 8 bits round where white is zero, and no other: it shall be as the file has it.
+void turn_back_white_is_zero(StoredImage& image) {
+  if (!image.tiff || !image.tiff->white_is_zero) return;
+  if (auto* levels = std::get_if<std::vector<std::uint8_t>>(&image.samples)) {
+    for (std::uint8_t& level : *levels) level = static_cast<std::uint8_t>(255 - level);
+  }
+}
+
 }  // namespace
 
-StoredImage read_image(const std::filesystem::path& path, FileFormat format, std::uint64_t memory_limit) {
-  if (format == FileFormat::png) return read_png(path, memory_limit);
-
+StoredImage read_image(const InputFile& file, FileFormat format, std::uint64_t memory_limit,
+                       const std::optional<std::string>& part) {
+  if (format == FileFormat::png) {
+    if (part) throw UsageError(file.path().string() + ": has no parts; only EXR files have");
+    return read_png(file, memory_limit);
+  }
+  StoredImage image;
+  check_before_opening(file, format, image);
   OIIO::ImageSpec spec;
-  const std::unique_ptr<OIIO::ImageInput> input = open_image(path, format, spec);
-  if (spec.deep || spec.depth > 1) throw file_error(path, "holds deep or volume data, not an image");
-  const StoredType& type = find_stored_type(path, spec);
+  const std::unique_ptr<OIIO::ImageInput> input = open_image(file, format, spec);
+  const int chosen = choose_part(file, format, *input, part);
+  spec = input->spec(chosen);
+  if (spec.deep || spec.depth > 1) throw file.error("holds deep or volume data, not an image");
+  const StoredType& type = find_stored_type(file, spec);
   const OIIO::TypeDesc kept(type.kept);
   const auto channels = static_cast<std::uint64_t>(spec.nchannels);
-  check_map_size(path, static_cast<std::uint64_t>(spec.width), static_cast<std::uint64_t>(spec.height),
+  check_map_size(file.path(), static_cast<std::uint64_t>(spec.width), static_cast<std::uint64_t>(spec.height),
                  bytes_per_texel(channels * kept.size()), memory_limit);
 
-  StoredImage image;
   image.width = spec.width;
   image.height = spec.height;
   image.sample_type = type.name;
@@ -98,17 +138,17 @@ StoredImage read_image(const std::filesystem::path& path, FileFormat format, std
   image.is_integer = !spec.format.is_floating_point();
   image.channels = spec.channelnames;
   if (format == FileFormat::tiff) {
-    check_tiff_layout(path, spec, image.bits);
-    image.no_data = read_tiff_no_data(path);
+    check_tiff_layout(file, spec, image.bits);
+    check_tiff_sums(file);
   }
   image.samples = type.make(spec.image_pixels() * channels);
   const bool read = std::visit(
-      [&](auto& samples) { return input->read_image(0, 0, 0, spec.nchannels, kept, samples.data()); },
+      [&](auto& samples) { return input->read_image(chosen, 0, 0, spec.nchannels, kept, samples.data()); },
       image.samples);
   // The readers of TIFF and JPEG fill what a truncated file lacks, say so in a message, and report success.
-  if (!read || input->has_error()) {
-    throw file_error(path, "is damaged or truncated: " + first_line(input->geterror()));
-  }
+  if (!read || input->has_error())
+    throw file.error("is damaged or truncated: " + file.explain(input->geterror()));
+  turn_back_white_is_zero(image);
   return image;
 }
 

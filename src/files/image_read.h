@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "files/file_format.h"
+#include "files/tiff_facts.h"
 
 namespace heightlight {
 
@@ -25,18 +26,21 @@ struct StoredImage {
   int bits = 0;             ///< per sample, in the file
   bool is_integer = false;
   std::vector<std::string> channels;  ///< in the file's order; alpha is "A"
-  std::optional<double> no_data;      ///< declared by the file (GDAL's tag in TIFF)
+  std::optional<TiffFacts> tiff;      ///< of a TIFF
+  std::vector<std::string> warnings;  ///< of what could be read all the same
   StoredSamples samples;              ///< row-major, row 0 on top, channels interleaved
 };
 
-/// Reads the first image of a file, whose format is not esri_grid. The header's size is checked
-/// (check_map_size) before samples are read; `memory_limit` in bytes must hold the samples and what heights
-/// are made of. Throws Error naming the file when it is truncated or damaged, too large, deep or of an
-/// unknown sample type.
-StoredImage read_image(const std::filesystem::path& path, FileFormat format, std::uint64_t memory_limit);
+/// Reads an image, whose format is not esri_grid: the first of a TIFF, the only part of an EXR or the one
+/// that `part` names (any case) or counts (from 0). The header's size is checked (check_map_size) before
+/// samples are read; `memory_limit` in bytes must hold the samples and what heights are made of. Throws Error
+/// naming the file when it is truncated or damaged, too large, deep, of an unknown sample type, or an EXR of
+/// several parts without `part`, UsageError for a `part` that it does not have.
+StoredImage read_image(const InputFile& file, FileFormat format, std::uint64_t memory_limit,
+                       const std::optional<std::string>& part = {});
 
-/// Part of read_image: PNG, through stb.
-StoredImage read_png(const std::filesystem::path& path, std::uint64_t memory_limit);
+/// Part of read_image: PNG, through libpng.
+StoredImage read_png(const InputFile& file, std::uint64_t memory_limit);
 
 /// Bytes for each texel while a heightmap is made: the file's samples beside one channel of them as double,
 /// and afterwards those doubles beside the heights as float.

@@ -26,6 +26,17 @@ extern "C" void note_signal(int signal_number) {
   errno = error_number;
 }
 
+/// What the parent ignores stays ignored (nohup, a shell's background jobs).
+void note_unless_ignored(int signal_number) {
+  struct sigaction now {};
+  sigaction(signal_number, nullptr, &now);
+  if (now.sa_handler == SIG_IGN) return;
+  struct sigaction noting {};
+  noting.sa_handler = note_signal;
+  noting.sa_flags = SA_RESTART;
+  sigaction(signal_number, &noting, nullptr);
+}
+
 void wait_for_late_end(void (*when_late)(int)) {
   while (sem_wait(&signal_came) != 0) {
   }
@@ -41,8 +52,9 @@ void note_interrupts(void (*when_late)(int signal_number)) {
   is_noting = true;
   sem_init(&signal_came, 0, 0);
   std::thread(wait_for_late_end, when_late).detach();
-  std::signal(SIGINT, note_signal);
-  std::signal(SIGTERM, note_signal);
+  for (const int signal_number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) note_unless_ignored(signal_number);
+  std::signal(SIGCHLD, SIG_DFL);  // a parent may have ignored it: then nobody learns how gnuplot ended
+  std::signal(SIGXFSZ, SIG_IGN);  // the write that would pass the limit fails, and says so
 }
 
 int noted_signal() { return noted_signal_number.load(std::memory_order_relaxed); }

@@ -1,10 +1,19 @@
 #pragma once
 
+#include <cstddef>
+
 #include "heightlight/image.h"
 
 namespace heightlight {
 
-/// Distinct values among those that are not NaN, up to kMostLevels; kMostLevels + 1 where there are more.
-std::size_t count_levels(const Image<double>& values);
+/// Distinct values of a map.
+struct Levels {
+  std::size_t count = 0;  ///< kMostLevels + 1 means more than kMostLevels
+  double step = 0;  ///< median distance between neighbouring ones; 0 where they are more than kFewLevels
+};
+constexpr std::size_t kFewLevels = 1024;
+
+/// NaN is no level; −0 is the same as 0.
+Levels count_levels(const Image<double>& values);
 
 }  // namespace heightlight

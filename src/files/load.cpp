@@ -4,114 +4,52 @@
 #include <cmath>
 #include <limits>
 
-#include "files/channel.h"
 #include "files/degrees.h"
+#include "files/doubts.h"
 #include "files/image_file.h"
-#include "files/image_read.h"
-#include "files/input_file.h"
-#include "files/level_count.h"
-#include "heightlight/error.h"
+#include "files/stored_heights.h"
+#include "files/suspects.h"
 #include "heightlight/files.h"
 
 namespace heightlight {
 namespace {
 
-constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+/// Lengths beyond these are typing errors, and their squares leave single precision.
+constexpr double kShortest = 1e-12;
+constexpr double kLongest = 1e12;
 
-/// A file's samples on their way to heights.
-struct StoredHeights {
-  Image<double> values;
-  SourceFacts facts;
-  std::optional<EsriHeader> grid;  ///< of an Esri grid
-};
-
-void check_positive(const char* quantity, const std::optional<double>& value) {
-  if (value && !(*value > 0 && std::isfinite(*value))) {
-    throw UsageError(quantity, "", "must be a positive number");
-  }
+void check_length(const char* quantity, const std::optional<double>& value) {
+  if (!value) return;
+  if (!(*value > 0 && std::isfinite(*value))) throw UsageError(quantity, "", "must be a positive number");
+  if (*value < kShortest || *value > kLongest)
+    throw UsageError(quantity, fmt::format("{:g}", *value), "must be from 1e-12 to 1e12");
 }
 
-void check_options(const LoadOptions& options) {
-  check_positive("relief", options.relief);
-  check_positive("relief_share", options.relief_share);
-  if (options.relief && options.relief_share)
-    throw UsageError("the relief is given twice: as a height, and as a share of the width");
-  check_positive("width", options.width);
-  if (!options.texel) return;
-  check_positive("texel", options.texel->x);
-  check_positive("texel", options.texel->y);
-  if (options.width) throw UsageError("width", "", "excludes a texel, since both give the spacing");
+/// What a file says of its samples' distances and place, of whatever kind it is.
+std::optional<EsriHeader> georeference(const StoredHeights& stored) {
+  if (stored.grid) return stored.grid;
+  if (!stored.tiff || !stored.tiff->pixel_scale) return std::nullopt;
+  EsriHeader place;
+  place.columns = stored.values.width;
+  place.rows = stored.values.height;
+  place.cell_x = (*stored.tiff->pixel_scale)[0];
+  place.cell_y = (*stored.tiff->pixel_scale)[1];
+  place.west = stored.tiff->west;
+  if (stored.tiff->north) place.south = *stored.tiff->north - place.rows * place.cell_y;
+  return place;
 }
 
-StoredHeights read_grid(const std::filesystem::path& path, const LoadOptions& options,
-                        std::uint64_t memory_limit) {
-  StoredHeights stored;
-  EsriGrid grid = read_esri_grid(path, memory_limit);
-  if (options.channel) find_channel(path, {"height"}, *options.channel);
-  stored.facts.channel = "height";
-  stored.facts.channels = 1;
-  stored.facts.sample_type = "text";
-  stored.facts.declared_no_data = grid.header.no_data;
-  stored.values = std::move(grid.values);
-  stored.grid = grid.header;
-  return stored;
-}
-
-StoredHeights read_picture(const std::filesystem::path& path, FileFormat format, const LoadOptions& options,
-                           std::uint64_t memory_limit) {
-  const StoredImage image = read_image(path, format, memory_limit);
-  StoredHeights stored;
-  ChannelSamples channel = pick_channel(path, image, options.channel);
-  stored.values = std::move(channel.values);
-  stored.facts.channel = channel.name;
-  stored.facts.channels = static_cast<int>(image.channels.size());
-  stored.facts.sample_type = image.sample_type;
-  stored.facts.bits = image.bits;
-  stored.facts.is_integer = image.is_integer;
-  stored.facts.declared_no_data = image.no_data;
-  return stored;
-}
-
-/// A no-data value given in decimals stands for the nearest value that the samples can take.
-double as_stored(double value, const std::string& sample_type) {
-  if (sample_type != "float" || std::abs(value) > std::numeric_limits<float>::max()) return value;
-  return static_cast<double>(static_cast<float>(value));
-}
-
-/// Makes NaN of what is missing, and notes range and levels of the rest. Throws Error where nothing is left.
-void drop_missing(const std::filesystem::path& path, const std::optional<double>& no_data,
-                  StoredHeights& stored) {
-  const std::string& type = stored.facts.sample_type;
-  const double given = as_stored(no_data.value_or(kMissing), type);
-  const double declared = as_stored(stored.facts.declared_no_data.value_or(kMissing), type);
-  double lowest = std::numeric_limits<double>::infinity();
-  double highest = -lowest;
-  for (double& value : stored.values.values) {
-    if (!std::isfinite(value) || value == given || value == declared) {
-      value = kMissing;
-    } else {
-      lowest = std::min(lowest, value);
-      highest = std::max(highest, value);
-    }
-  }
-  if (lowest > highest) throw file_error(path, "all its samples are missing (no-data)");
-  stored.facts.lowest = lowest;
-  stored.facts.highest = highest;
-  stored.facts.levels = count_levels(stored.values);
-}
-
-Spacing choose_spacing(const std::filesystem::path& path, const LoadOptions& options,
-                       const StoredHeights& stored) {
+Spacing choose_spacing(const InputFile& file, const LoadOptions& options, const StoredHeights& stored) {
   if (options.texel) return *options.texel;
   const double columns = stored.values.width;
   Spacing cell{1 / columns, 1 / columns};
-  if (stored.grid) {
-    cell = {stored.grid->cell_x, stored.grid->cell_y};
-    if (is_in_degrees(*stored.grid, stored.facts.highest - stored.facts.lowest)) {
-      const Spacing metres = cell_in_metres(*stored.grid);
+  if (const std::optional<EsriHeader> place = georeference(stored)) {
+    cell = {place->cell_x, place->cell_y};
+    const bool said = stored.tiff && stored.tiff->in_degrees && place->south;
+    if (said || is_in_degrees(*place, stored.facts.highest - stored.facts.lowest)) {
+      const Spacing metres = cell_in_metres(*place);
       const std::string texel = fmt::format("{:.4g}x{:.4g}", metres.x, metres.y);
-      throw file_error(path,
-                       "its cell size is in degrees; give the spacing in metres, which is " + texel +
+      throw file.error("its cell size is in degrees; give the spacing in metres, which is " + texel +
                            " at its middle latitude",
                        "texel " + texel);
     }
@@ -121,13 +59,12 @@ Spacing choose_spacing(const std::filesystem::path& path, const LoadOptions& opt
 }
 
 /// Heights above the lowest sample, scaled so that they span `relief` where that is given.
-Image<float> to_heights(const std::filesystem::path& path, const StoredHeights& stored,
+Image<float> to_heights(const InputFile& file, const StoredHeights& stored,
                         const std::optional<double>& relief, bool invert) {
   const double span = stored.facts.highest - stored.facts.lowest;
   const double scale = relief && span > 0 ? *relief / span : 1;
-  if (!(span * scale <= static_cast<double>(std::numeric_limits<float>::max()))) {
-    throw file_error(path, "its heights span more than single precision can hold");
-  }
+  if (!(span * scale <= static_cast<double>(std::numeric_limits<float>::max())))
+    throw file.error("its heights span more than single precision can hold");
   Image<float> heights(stored.values.width, stored.values.height);
   for (std::size_t i = 0; i < heights.size(); ++i) {
     const double value = stored.values.values[i];
@@ -137,31 +74,56 @@ Image<float> to_heights(const std::filesystem::path& path, const StoredHeights& 
   return heights;
 }
 
+/// Beyond single precision's squares nothing can be computed; `suspects` may tell why.
+void check_slopes(const InputFile& file, const Heightmap& map, const std::vector<Warning>& suspects) {
+  constexpr double kSteepest = 1e12;
+  if (relief(map) <= kSteepest * std::min(map.spacing.x, map.spacing.y)) return;
+  if (suspects.empty()) throw file.error("its slopes exceed 1e12; is the spacing right?", "texel");
+  throw file.error(suspects[0].message + "; slopes would exceed 1e12", suspects[0].remedy);
+}
+
 }  // namespace
+
+void check_load_options(const LoadOptions& options) {
+  check_length("relief", options.relief);
+  check_length("relief_share", options.relief_share);
+  if (options.relief && options.relief_share)
+    throw UsageError("the relief is given twice: as a height, and as a share of the width");
+  check_length("width", options.width);
+  if (options.no_data && !std::isfinite(*options.no_data))
+    throw UsageError("no_data", "", "must be a number; NaN and infinities are missing anyway");
+  if (!options.texel) return;
+  check_length("texel", options.texel->x);
+  check_length("texel", options.texel->y);
+  if (options.width) throw UsageError("width", "", "excludes a texel, since both give the spacing");
+}
 
 LoadedHeightmap load_heightmap(const std::filesystem::path& path, const LoadOptions& options,
                                std::uint64_t memory_limit) {
-  check_options(options);
-  const FileFormat format = recognise_format(path);
-  StoredHeights stored = format == FileFormat::esri_grid ? read_grid(path, options, memory_limit)
-                                                         : read_picture(path, format, options, memory_limit);
-  drop_missing(path, options.no_data, stored);
+  check_load_options(options);
+  const InputFile file(path);
+  StoredHeights stored = read_stored_heights(file, options, memory_limit);
 
   LoadedHeightmap loaded;
   Heightmap& map = loaded.map;
-  map.spacing = choose_spacing(path, options, stored);
-  map.boundary = options.boundary.value_or(stored.grid ? Boundary::open : Boundary::tile);
+  map.spacing = choose_spacing(file, options, stored);
+  map.boundary = options.boundary.value_or(georeference(stored) ? Boundary::open : Boundary::tile);
   std::optional<double> relief = options.relief;
   const double width = map.spacing.x * stored.values.width;
   if (options.relief_share) relief = *options.relief_share * width;
-  if (!relief && stored.facts.is_integer) relief = width / 10;
-  map.height = to_heights(path, stored, relief, options.invert);
-  if (!relief) map.base = options.invert ? -stored.facts.highest : stored.facts.lowest;
+  if (!relief && stored.facts.is_stretched) relief = width / 10;
+  const bool invert = options.invert != stored.facts.white_is_zero;
+  map.height = to_heights(file, stored, relief, invert);
+  loaded.warnings = find_suspects(stored);
+  check_slopes(file, map, loaded.warnings);
+  if (!relief) map.base = invert ? -stored.facts.highest : stored.facts.lowest;
   if (options.shrink != 1) map = shrink(map, options.shrink);
 
+  for (const std::vector<Warning>& more : {find_doubts(map, stored, options), stored.warnings})
+    loaded.warnings.insert(loaded.warnings.end(), more.begin(), more.end());
   loaded.facts = std::move(stored.facts);
-  loaded.facts.format = to_string(format);
-  loaded.facts.sha256 = sha256_of_file(path);
+  loaded.facts.sha256 = sha256_of_file(file);
+  file.check_unchanged();
   return loaded;
 }
 

@@ -1,17 +1,10 @@
-// stb's decoder, for this file alone: no other program that we are linked into sees its names.
-#define STB_IMAGE_IMPLEMENTATION
-#define STB_IMAGE_STATIC
-#define STBI_ONLY_PNG
-#define STBI_FAILURE_USERMSG
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wunused-function"
-#include <stb/stb_image.h>
-#pragma GCC diagnostic pop
+#include <png.h>
 
 #include <algorithm>
 #include <array>
-#include <boost/crc.hpp>
-#include <memory>
+#include <bit>
+#include <csetjmp>
+#include <cstring>
 
 #include "files/image_read.h"
 #include "files/input_file.h"
@@ -20,9 +13,31 @@
 namespace heightlight {
 namespace {
 
-struct FreeStb {
-  void operator()(void* pixels) const { stbi_image_free(pixels); }
+/// What libpng says while it reads. It leaves by a jump, past which no object may live: all that does lives
+/// in here and in the image.
+struct PngState {
+  png_structp png = nullptr;
+  png_infop info = nullptr;
+  std::string fault;
+  std::vector<std::string> bad_sums;  ///< chunks that may be left out, and were
+  std::vector<png_bytep> rows;
+
+  PngState() = default;
+  ~PngState() { png_destroy_read_struct(&png, &info, nullptr); }
+  PngState(const PngState&) = delete;
+  PngState& operator=(const PngState&) = delete;
 };
+
+PngState& state_of(png_structp png) { return *static_cast<PngState*>(png_get_error_ptr(png)); }
+
+[[noreturn]] void note_error(png_structp png, png_const_charp message) {
+  state_of(png).fault = message;
+  png_longjmp(png, 1);
+}
+
+void note_warning(png_structp png, png_const_charp message) {
+  if (std::strstr(message, "CRC error")) state_of(png).bad_sums.emplace_back(message, 4);
+}
 
 /// The image header chunk, which comes first.
 struct PngHeader {
@@ -37,84 +52,89 @@ std::uint32_t big_endian(const unsigned char* bytes) {
          static_cast<std::uint32_t>(bytes[2]) << 8 | static_cast<std::uint32_t>(bytes[3]);
 }
 
-PngHeader read_header(const std::filesystem::path& path, std::FILE* file) {
+PngHeader read_first_chunk(const InputFile& file) {
   std::array<unsigned char, 26> bytes{};
-  if (std::fread(bytes.data(), 1, bytes.size(), file) != bytes.size()) throw file_error(path, "is truncated");
-  std::rewind(file);
+  if (std::fread(bytes.data(), 1, bytes.size(), file.rewound()) != bytes.size())
+    throw file.error("is truncated");
+  const std::string chunk(&bytes[12], &bytes[16]);
+  if (chunk == "CgBI") {
+    throw file.error(
+        "is a PNG in Apple's own variant (CgBI), which other programs do not read; export it again as PNG");
+  }
+  if (chunk != "IHDR") throw file.error("is damaged: a PNG begins with its header chunk, IHDR");
   return {big_endian(&bytes[16]), big_endian(&bytes[20]), bytes[24], bytes[25]};
 }
 
-/// Walks the chunks up to IEND and compares their checksums, which stb leaves out: a damaged file would come
-/// through it as a surface with wrong heights. Leaves the file at its beginning.
-void check_chunks(const std::filesystem::path& path, std::FILE* file) {
-  constexpr std::size_t kSignatureSize = 8;
-  std::vector<unsigned char> block(1 << 16);
-  const auto take = [&](std::size_t count) {
-    if (std::fread(block.data(), 1, count, file) != count) throw file_error(path, "is truncated");
-  };
-  take(kSignatureSize);
-  for (bool ended = false; !ended;) {
-    take(8);  // length and type
-    std::size_t left = big_endian(block.data());
-    ended = std::equal(&block[4], &block[8], "IEND");
-    boost::crc_32_type checksum;
-    checksum.process_bytes(&block[4], 4);
-    while (left > 0) {
-      const std::size_t count = std::min(left, block.size());
-      take(count);
-      checksum.process_bytes(block.data(), count);
-      left -= count;
-    }
-    take(4);
-    if (big_endian(block.data()) != checksum.checksum())
-      throw file_error(path, "is damaged: a PNG checksum is wrong");
-  }
-  std::rewind(file);
+/// Most channels that samples of a colour type can have: a transparent palette makes four of one.
+std::uint64_t most_channels(int colour_type) { return colour_type == PNG_COLOR_TYPE_GRAY ? 2 : 4; }
+
+/// Up to the first sample, with the transformations that make 8 or 16 bits a channel of any kind of PNG.
+bool read_header(PngState& state, std::FILE* stream) {
+  if (setjmp(png_jmpbuf(state.png))) return false;
+  png_init_io(state.png, stream);
+  png_read_info(state.png, state.info);
+  png_set_palette_to_rgb(state.png);
+  png_set_expand_gray_1_2_4_to_8(state.png);
+  if (png_get_valid(state.png, state.info, PNG_INFO_tRNS)) png_set_tRNS_to_alpha(state.png);
+  if (std::endian::native == std::endian::little) png_set_swap(state.png);
+  png_set_interlace_handling(state.png);
+  png_read_update_info(state.png, state.info);
+  return true;
 }
 
-/// Channels that stb can give at most; only a transparent palette makes four of one.
-std::uint64_t most_channels(int colour_type) { return colour_type == 0 ? 2 : 4; }
+bool read_rows(PngState& state) {
+  if (setjmp(png_jmpbuf(state.png))) return false;
+  png_read_image(state.png, state.rows.data());
+  png_read_end(state.png, nullptr);
+  return true;
+}
+
+Error decoding_error(const InputFile& file, const std::string& fault) {
+  if (fault.find("CRC error") != std::string::npos)
+    return file.error("is damaged: a PNG checksum is wrong (" + fault.substr(0, 4) + ")");
+  if (fault == "Read Error") return file.error("is truncated");
+  return file.error("is damaged, and cannot be decoded as PNG: " + fault);
+}
 
 template <class T>
-std::vector<T> copy_samples(const void* pixels, std::size_t count) {
-  const T* first = static_cast<const T*>(pixels);
-  return std::vector<T>(first, first + count);
+StoredSamples make_rows(PngState& state, std::size_t rows, std::size_t samples_per_row) {
+  std::vector<T> samples(rows * samples_per_row);
+  for (std::size_t row = 0; row < rows; ++row) {
+    state.rows.push_back(reinterpret_cast<png_bytep>(samples.data() + row * samples_per_row));
+  }
+  return samples;
 }
 
 }  // namespace
 
-StoredImage read_png(const std::filesystem::path& path, std::uint64_t memory_limit) {
-  const File file = open_input(path);
-  const PngHeader header = read_header(path, file.get());
-  const bool wide = header.bits == 16;
-  // stb holds the compressed, the filtered and the final bytes together.
-  constexpr std::uint64_t kCopies = 3;
-  check_map_size(path, header.width, header.height,
-                 bytes_per_texel(kCopies * most_channels(header.colour_type) * (wide ? 2 : 1)), memory_limit);
-  check_chunks(path, file.get());
+StoredImage read_png(const InputFile& file, std::uint64_t memory_limit) {
+  const PngHeader header = read_first_chunk(file);
+  const std::size_t sample_bytes = header.bits == 16 ? 2 : 1;
+  check_map_size(file.path(), header.width, header.height,
+                 bytes_per_texel(most_channels(header.colour_type) * sample_bytes), memory_limit);
+  PngState state;
+  state.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &state, note_error, note_warning);
+  if (state.png) state.info = png_create_info_struct(state.png);
+  if (!state.info) throw std::bad_alloc();
+  if (!read_header(state, file.rewound())) throw decoding_error(file, state.fault);
 
   StoredImage image;
-  int count = 0;
-  const std::unique_ptr<void, FreeStb> pixels(
-      wide ? static_cast<void*>(stbi_load_from_file_16(file.get(), &image.width, &image.height, &count, 0))
-           : static_cast<void*>(stbi_load_from_file(file.get(), &image.width, &image.height, &count, 0)));
-  if (!pixels) {
-    const char* reason = stbi_failure_reason();
-    throw file_error(path, std::string("cannot be decoded as PNG: ") + (reason ? reason : "damaged"));
-  }
-
+  image.width = static_cast<int>(header.width);
+  image.height = static_cast<int>(header.height);
+  const std::size_t channels = png_get_channels(state.png, state.info);
   constexpr std::array kNames{"Y", "YA", "RGB", "RGBA"};
-  for (const char* name = kNames[static_cast<std::size_t>(count - 1)]; *name; ++name)
-    image.channels.emplace_back(1, *name);
-  image.sample_type = wide ? "uint16" : "uint8";
+  for (const char* name = kNames.at(channels - 1); *name; ++name) image.channels.emplace_back(1, *name);
+  image.sample_type = sample_bytes == 2 ? "uint16" : "uint8";
   image.bits = header.bits;
   image.is_integer = true;
-  const std::size_t samples =
-      static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * image.channels.size();
-  if (wide) {
-    image.samples = copy_samples<std::uint16_t>(pixels.get(), samples);
-  } else {
-    image.samples = copy_samples<std::uint8_t>(pixels.get(), samples);
+  image.samples = sample_bytes == 2 ? make_rows<std::uint16_t>(state, header.height, header.width * channels)
+                                    : make_rows<std::uint8_t>(state, header.height, header.width * channels);
+  if (!read_rows(state)) throw decoding_error(file, state.fault);
+  for (const std::string& chunk : state.bad_sums) {
+    // It says which samples are transparent, so that heights hang on it.
+    if (chunk == "tRNS") throw decoding_error(file, "tRNS: CRC error");
+    image.warnings.push_back("the checksum of its chunk " + chunk +
+                             " is wrong; that chunk says nothing of the samples, and was left out");
   }
   return image;
 }

@@ -2,22 +2,43 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "files/image_file.h"
 #include "files/image_read.h"
 #include "files/input_file.h"
+#include "files/json_file.h"
 #include "files/map_size.h"
 #include "heightlight/transport.h"
 
 namespace heightlight {
 namespace {
 
+const FileRecord* find_record(const RunSummary& run, const std::string& name) {
+  const auto found = std::find_if(run.files.begin(), run.files.end(),
+                                  [&](const FileRecord& record) { return record.name == name; });
+  return found == run.files.end() ? nullptr : &*found;
+}
+
+/// The file must be what the summary beside it records.
+void check_recorded(const InputFile& file, const FileRecord& record) {
+  if (file.size() == record.bytes && sha256_of_file(file) == record.sha256) return;
+  throw file.error(
+      "is not the file that summary.json beside it records: files of several runs are mixed; simulate the "
+      "map "
+      "again");
+}
+
 /// One float channel of `size` texels a side, or of any size where that is 0 × 0.
-Map read_map(const std::filesystem::path& path, int width, int height, std::uint64_t memory_limit) {
-  StoredImage image = read_image(path, recognise_format(path), memory_limit);
+Map read_map(const std::filesystem::path& folder, const FileRecord& record, int width, int height,
+             std::uint64_t memory_limit) {
+  const std::filesystem::path path = folder / record.name;
+  const InputFile file(path);
+  check_recorded(file, record);
+  StoredImage image = read_image(file, recognise_format(file), memory_limit);
   if (image.channels.size() != 1 || !std::holds_alternative<std::vector<float>>(image.samples)) {
     throw file_error(path, "is not one channel of floats, as simulate writes it");
   }
@@ -56,17 +77,23 @@ struct Sums {
 
 std::string bounce_file(int bounce) { return fmt::format("irradiance_{:02}.exr", bounce); }
 
-std::optional<RunSummary> read_run_summary(const std::filesystem::path& folder) {
-  const std::filesystem::path path = folder / "summary.json";
-  if (!std::filesystem::exists(path)) return std::nullopt;
-  std::ifstream file(path);
+std::optional<RunSummary> read_run_summary(const std::filesystem::path& curves) {
+  const std::filesystem::path path = curves.parent_path() / "summary.json";
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) return std::nullopt;
   try {
-    const nlohmann::json summary = nlohmann::json::parse(file);
+    const nlohmann::json summary = read_json(path);
     const nlohmann::json& map = summary.at("map");
-    if (!summary.contains("seen")) {
-      throw file_error(path, "does not say what texels see ('seen'): simulate the map again");
+    if (!summary.contains("seen") || !summary.contains("files")) {
+      throw file_error(path,
+                       "does not tell what texels see ('seen') or what was written ('files'): simulate "
+                       "the map again");
     }
     RunSummary run;
+    run.files = read_file_records(path).value_or(run.files);
+    const FileRecord* record = find_record(run, curves.filename().string());
+    if (!record) return std::nullopt;
+    check_recorded(curves, *record);
     run.map = std::filesystem::path(map.at("path").get<std::string>()).stem().string();
     run.sha256 = map.at("sha256").get<std::string>();
     run.tiles = map.at("boundary").get<std::string>() == "tile";
@@ -81,25 +108,30 @@ std::optional<RunSummary> read_run_summary(const std::filesystem::path& folder) 
   }
 }
 
-bool has_saved_texels(const std::filesystem::path& folder) {
-  return std::filesystem::exists(folder / bounce_file(0)) && std::filesystem::exists(folder / bounce_file(1));
+bool has_saved_texels(const RunSummary& run) {
+  return find_record(run, bounce_file(0)) && find_record(run, bounce_file(1));
 }
 
-SavedTexels read_saved_texels(const std::filesystem::path& folder, const std::vector<double>& albedos,
-                              std::uint64_t memory_limit) {
+SavedTexels read_saved_texels(const std::filesystem::path& folder, const RunSummary& run,
+                              const std::vector<double>& albedos, std::uint64_t memory_limit) {
+  const auto read = [&](const std::string& name, int width, int height) {
+    const FileRecord* record = find_record(run, name);
+    if (!record) throw file_error(folder / name, "is not among the files that summary.json records");
+    return read_map(folder, *record, width, height, memory_limit);
+  };
   SavedTexels saved;
-  saved.ambient_occlusion = read_map(folder / "ambient_occlusion.exr", 0, 0, memory_limit);
+  saved.ambient_occlusion = read("ambient_occlusion.exr", 0, 0);
   const int width = saved.ambient_occlusion.width;
   const int height = saved.ambient_occlusion.height;
   // The three maps, bounces as read and as kept, and the sums; totals replace those.
   const std::uint64_t bytes_per_texel = 6 * sizeof(float) + (albedos.size() + 1) * sizeof(double);
   check_map_size(folder / "ambient_occlusion.exr", static_cast<std::uint64_t>(width),
                  static_cast<std::uint64_t>(height), bytes_per_texel, memory_limit);
-  saved.sky_view_factor = read_map(folder / "sky_view_factor.exr", width, height, memory_limit);
+  saved.sky_view_factor = read("sky_view_factor.exr", width, height);
   Sums sums(saved.sky_view_factor.size(), albedos.size());
   int bounces = 0;
-  for (; std::filesystem::exists(folder / bounce_file(bounces)); ++bounces) {
-    const Map irradiance = read_map(folder / bounce_file(bounces), width, height, memory_limit);
+  for (; find_record(run, bounce_file(bounces)); ++bounces) {
+    const Map irradiance = read(bounce_file(bounces), width, height);
     sums.add(irradiance, bounces, albedos);
     if (bounces == 1) saved.first_bounce = irradiance;
   }

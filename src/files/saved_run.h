@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "files/file_record.h"
 #include "heightlight/image.h"
 
 namespace heightlight {
@@ -20,11 +21,13 @@ struct RunSummary {
   double width = 0;          ///< world units
   double expected_seen = 1;  ///< s, as SeenSky in the summary
   double measured_seen = 1;
+  std::vector<FileRecord> files;  ///< of the run, as they were written
 };
 
-/// The summary beside a CURVES.csv; nothing where there is none. Throws Error naming the file where it is
-/// damaged, or was written before it told what texels see.
-std::optional<RunSummary> read_run_summary(const std::filesystem::path& folder);
+/// The summary beside `curves`; nothing where there is none, or where it does not speak of a file of that
+/// name. Throws Error naming the file where the summary is damaged or tells less than today's, or where the
+/// curves are not those that it records: files of several runs are mixed.
+std::optional<RunSummary> read_run_summary(const std::filesystem::path& curves);
 
 /// What `simulate --save-bounces` left of every texel, brought to totals: all maps of one size, E/π, NaN
 /// where missing.
@@ -38,12 +41,13 @@ struct SavedTexels {
 /// "irradiance_07.exr": what holds bounce 7.
 std::string bounce_file(int bounce);
 
-/// Whether the folder holds bounces apart: irradiance_00.exr and irradiance_01.exr.
-bool has_saved_texels(const std::filesystem::path& folder);
+/// Whether the run kept its bounces apart: irradiance_00.exr, irradiance_01.exr, ….
+bool has_saved_texels(const RunSummary& run);
 
-/// Reads them and sums them up: Σ ρ^b E_b, and conserve_tail for what comes after the last. Throws Error
-/// naming the file that is missing, damaged or of another size, or when `memory_limit` bytes don't hold them.
-SavedTexels read_saved_texels(const std::filesystem::path& folder, const std::vector<double>& albedos,
-                              std::uint64_t memory_limit);
+/// Reads them from the run's folder and sums them up: Σ ρ^b E_b, and conserve_tail for what comes after the
+/// last. Throws Error naming the file that is missing, damaged, of another size or of another run, or when
+/// `memory_limit` bytes don't hold them.
+SavedTexels read_saved_texels(const std::filesystem::path& folder, const RunSummary& run,
+                              const std::vector<double>& albedos, std::uint64_t memory_limit);
 
 }  // namespace heightlight

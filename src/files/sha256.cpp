@@ -49,15 +49,15 @@ class Sha256 {
 
 }  // namespace
 
-std::string sha256_of_file(const std::filesystem::path& path) {
-  const File file = open_input(path);
+std::string sha256_of_file(const InputFile& file) {
+  std::FILE* const stream = file.rewound();
   Sha256 sum;
   std::vector<unsigned char> block(1 << 20);
-  while (const std::size_t count = std::fread(block.data(), 1, block.size(), file.get())) {
+  while (const std::size_t count = std::fread(block.data(), 1, block.size(), stream)) {
     throw_if_interrupted();
     sum.add(block.data(), count);
   }
-  if (std::ferror(file.get())) throw file_error(path, "cannot be read to its end");
+  if (std::ferror(stream)) throw file.error("cannot be read to its end");
   return sum.finish();
 }
 

@@ -1,10 +1,12 @@
 #include "files/staged_output.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <optional>
 #include <system_error>
 
 #include "files/input_file.h"
@@ -66,27 +68,51 @@ void remove_empty_folders(fs::path folder, const fs::path& top) {
   }
 }
 
+/// A name that is too long for its file system would show only when all is computed.
+void check_name_length(const fs::path& existing_folder, const fs::path& destination) {
+  const long most = pathconf(existing_folder.c_str(), _PC_NAME_MAX);
+  if (most > 0 && destination.filename().string().size() > static_cast<std::size_t>(most))
+    throw output_error(destination, ENAMETOOLONG);
+}
+
 fs::path parent_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
+/// Device and inode; nothing where there is no file.
+std::optional<std::pair<std::uint64_t, std::uint64_t>> identity_of(const fs::path& path) {
+  struct stat status {};
+  if (stat(path.c_str(), &status) != 0) return std::nullopt;
+  return std::pair(std::uint64_t{status.st_dev}, std::uint64_t{status.st_ino});
+}
+
 }  // namespace
 
-void check_inputs_stay(const std::vector<fs::path>& inputs, const fs::path& destination) {
+InputGuard::InputGuard(const std::vector<fs::path>& inputs) {
   for (const fs::path& input : inputs) {
-    std::error_code ignored;  // of files that do not exist, which nothing replaces
-    if (!fs::equivalent(input, destination, ignored)) continue;
-    UsageError error(input.string() + ": the results would replace it; choose another place for them");
-    error.remedy = "output";
-    throw error;
+    if (const auto identity = identity_of(input)) inputs_.emplace(*identity, input);
   }
 }
 
-StagedFolder::StagedFolder(fs::path folder, std::vector<fs::path> inputs,
-                           const std::vector<std::string>& results)
-    : folder_(std::move(folder)), inputs_(std::move(inputs)) {
+const fs::path* InputGuard::find(const fs::path& destination) const {
+  const auto identity = identity_of(destination);
+  const auto found = identity ? inputs_.find(*identity) : inputs_.end();
+  return found == inputs_.end() ? nullptr : &found->second;
+}
+
+void InputGuard::check(const fs::path& destination) const {
+  const fs::path* input = find(destination);
+  if (!input) return;
+  UsageError error(input->string() + ": the results would replace it; choose another place for them");
+  error.remedy = "output";
+  throw error;
+}
+
+StagedFolder::StagedFolder(fs::path folder, const std::vector<fs::path>& inputs,
+                           const std::vector<std::string>& results, std::string record)
+    : folder_(std::move(folder)), inputs_(inputs), record_(std::move(record)) {
   if (!folder_.has_filename()) folder_ = folder_.parent_path();  // "out/" is "out"
-  for (const std::string& name : results) check_inputs_stay(inputs_, folder_ / name);
+  for (const std::string& name : results) inputs_.check(folder_ / name);
   std::error_code failure;
   const fs::file_status status = fs::status(folder_, failure);
   if (status.type() == fs::file_type::none) throw output_error(folder_, failure.message());
@@ -105,11 +131,13 @@ StagedFolder::StagedFolder(fs::path folder, std::vector<fs::path> inputs,
     // A name that is too long shows only now, where its parent is.
     if (fs::status(folder_, failure).type() == fs::file_type::none)
       throw output_error(folder_, failure.message());
+    for (const std::string& name : results) check_name_length(is_new_ ? parent : folder_, folder_ / name);
     staging_ = std::make_unique<StagingFolder>(is_new_ ? parent : folder_, folder_, folder_);
   } catch (const Error&) {
     remove_empty_folders(parent, first_created_);
     throw;
   }
+  if (!record_.empty() && !is_new_) former_ = read_file_records(folder_ / record_).value_or(former_);
 }
 
 StagedFolder::~StagedFolder() {
@@ -119,11 +147,17 @@ StagedFolder::~StagedFolder() {
 
 fs::path StagedFolder::file(const std::string& name) {
   if (std::find(names_.begin(), names_.end(), name) == names_.end()) {
-    check_inputs_stay(inputs_, final_path(name));
+    inputs_.check(final_path(name));
     check_replaceable(final_path(name));
     names_.push_back(name);
   }
   return staging_->path() / name;
+}
+
+void StagedFolder::leave_out(const std::string& name) {
+  std::erase(names_, name);
+  std::error_code ignored;
+  fs::remove(staging_->path() / name, ignored);
 }
 
 void StagedFolder::put_in_place() {
@@ -133,7 +167,28 @@ void StagedFolder::put_in_place() {
   for (const std::string& name : names_) rename_into_place(staging_->path() / name, final_path(name));
 }
 
-void StagedFolder::commit() {
+std::vector<FileRecord> StagedFolder::written() const {
+  std::vector<FileRecord> records;
+  for (const std::string& name : names_) records.push_back(record_file(staging_->path() / name, name));
+  return records;
+}
+
+/// Only what is as large as it was recorded: another file under that name is not ours.
+std::vector<std::string> StagedFolder::remove_former() {
+  std::vector<std::string> removed;
+  for (const FileRecord& file : former_) {
+    const fs::path path = final_path(file.name);
+    const auto is_file = [&](const std::string& name) { return name == file.name; };
+    if (std::any_of(names_.begin(), names_.end(), is_file) || file.name == record_) continue;
+    std::error_code failure;
+    if (!fs::is_regular_file(fs::symlink_status(path, failure)) || fs::file_size(path, failure) != file.bytes)
+      continue;
+    if (!inputs_.find(path) && fs::remove(path, failure)) removed.push_back(file.name);
+  }
+  return removed;
+}
+
+std::vector<std::string> StagedFolder::commit() {
   // All that can fail for want of space or by a folder in the way fails here, before the first file is
   // replaced.
   for (const std::string& name : names_) {
@@ -144,18 +199,21 @@ void StagedFolder::commit() {
   put_in_place();
   committed_ = true;
   staging_.reset();
+  std::vector<std::string> removed = remove_former();
   sync_names(folder_);
   sync_names(parent_of(folder_));
+  return removed;
 }
 
 StagedFile::StagedFile(fs::path destination, const std::vector<fs::path>& inputs)
     : destination_(std::move(destination)) {
   if (!destination_.has_filename()) throw file_error(destination_, "is not the name of a file");
-  check_inputs_stay(inputs, destination_);
+  InputGuard(inputs).check(destination_);
   check_replaceable(destination_);
   const fs::path folder = parent_of(destination_);
   std::error_code ignored;
   if (!fs::exists(folder, ignored)) throw output_error(destination_, "its folder does not exist");
+  check_name_length(folder, destination_);
   staging_ = std::make_unique<StagingFolder>(folder, folder, destination_);
   staged_ = staging_->path() / destination_.filename();
 }

@@ -1,27 +1,50 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "files/file_record.h"
 #include "files/staging_folder.h"
 
 namespace heightlight {
 
+/// Files that are read, which no result may replace.
+class InputGuard {
+ public:
+  /// Paths at which there is nothing, such as an albedo that is a number, name no input.
+  explicit InputGuard(const std::vector<std::filesystem::path>& inputs);
+
+  /// Throws UsageError naming the input that a result at `destination` would replace, whatever it is called
+  /// there and here: the same file by device and inode.
+  void check(const std::filesystem::path& destination) const;
+
+  /// The input that a path leads to; nullptr where it leads to none.
+  const std::filesystem::path* find(const std::filesystem::path& destination) const;
+
+ private:
+  std::map<std::pair<std::uint64_t, std::uint64_t>, std::filesystem::path> inputs_;
+};
+
 /// A folder of results that appears whole or not at all. Files are written into a hidden staging folder on
 /// the same file system and synced. Where the folder is new, `commit` gives it its name: it is there with all
 /// its files, or not at all. Where it exists, `commit` renames file after file into it, in the order in which
-/// they were asked for, and the last to come says that all are there. Without `commit`, the destructor
-/// removes every trace, parent folders that this object created included.
+/// they were asked for, and the last to come says that all are there; what the record of an earlier result
+/// lists and this one has not, goes away. Without `commit`, the destructor removes every trace, parent
+/// folders that this object created included.
 class StagedFolder {
  public:
-  /// Creates the parents of `folder` where absent. Throws UsageError naming an input that one of `results`,
-  /// names of files in the folder, would replace, whatever it is called there and here (the same file by
-  /// device and inode); Error naming the folder when it can't be created or written to, or exists and is no
-  /// folder.
-  StagedFolder(std::filesystem::path folder, std::vector<std::filesystem::path> inputs,
-               const std::vector<std::string>& results);
+  /// Creates the parents of `folder` where absent. `record` names the file of JSON in it that lists the
+  /// others (read_file_records); empty where none does. Throws UsageError naming an input that one of
+  /// `results`, names of files in the folder, would replace, whatever it is called there and here (the same
+  /// file by device and inode); Error naming the folder when it can't be created or written to, exists and is
+  /// no folder, or cannot hold a file of such a long name.
+  StagedFolder(std::filesystem::path folder, const std::vector<std::filesystem::path>& inputs,
+               const std::vector<std::string>& results, std::string record = "");
   ~StagedFolder();
   StagedFolder(const StagedFolder&) = delete;
   StagedFolder& operator=(const StagedFolder&) = delete;
@@ -30,27 +53,33 @@ class StagedFolder {
   /// Error when something other than a regular file has that name already, UsageError when an input has it.
   std::filesystem::path file(const std::string& name);
 
+  /// Takes back that there will be such a file.
+  void leave_out(const std::string& name);
+
   /// Where that file will stand: for messages.
   std::filesystem::path final_path(const std::string& name) const { return folder_ / name; }
 
-  /// Puts every staged file in its place. Throws Error naming the file that could not be.
-  void commit();
+  /// What has been written so far, in order, for the record. Throws Error.
+  std::vector<FileRecord> written() const;
+
+  /// Puts every staged file in its place. Returns the names of files of an earlier result that went away.
+  /// Throws Error naming the file that could not be put there.
+  std::vector<std::string> commit();
 
  private:
   void put_in_place();
+  std::vector<std::string> remove_former();
 
   std::filesystem::path folder_;
-  std::vector<std::filesystem::path> inputs_;
+  InputGuard inputs_;
   std::filesystem::path first_created_;  ///< topmost parent that did not exist before; empty if all did
   bool is_new_ = false;                  ///< the staging folder is to become the folder
   std::unique_ptr<StagingFolder> staging_;
   std::vector<std::string> names_;
+  std::string record_;
+  std::vector<FileRecord> former_;  ///< of the result that was there
   bool committed_ = false;
 };
-
-/// Throws UsageError naming the input that a result at `destination` would replace.
-void check_inputs_stay(const std::vector<std::filesystem::path>& inputs,
-                       const std::filesystem::path& destination);
 
 /// One result file, likewise: write to `path()`, then `commit()`.
 class StagedFile {

@@ -20,6 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kPrefix = ".heightlight-";
+constexpr const char* kMarker = ".heightlight-staging";
 
 /// Those of this process. Never destroyed: the end of the process needs them.
 struct Staged {
@@ -54,6 +55,19 @@ int open_folder(const fs::path& folder) {
   return open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
 }
 
+/// What only this program writes, and into staging folders alone.
+bool write_marker(int folder) {
+  const int marker = openat(folder, kMarker, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (marker < 0) return false;
+  close(marker);
+  return true;
+}
+
+bool has_marker(int folder) {
+  struct stat status {};
+  return fstatat(folder, kMarker, &status, AT_SYMLINK_NOFOLLOW) == 0 && S_ISREG(status.st_mode);
+}
+
 /// Where locks are unknown, as on some network file systems, nothing is taken for left behind.
 void remove_left_behind(const fs::path& parent) {
   std::error_code ignored;
@@ -61,7 +75,8 @@ void remove_left_behind(const fs::path& parent) {
     if (!is_staging_name(entry->path().filename().string())) continue;
     const int descriptor = open_folder(entry->path());
     if (descriptor < 0) continue;
-    if (flock(descriptor, LOCK_EX | LOCK_NB) == 0) fs::remove_all(entry->path(), ignored);
+    if (has_marker(descriptor) && flock(descriptor, LOCK_EX | LOCK_NB) == 0)
+      fs::remove_all(entry->path(), ignored);
     close(descriptor);
   }
 }
@@ -92,13 +107,20 @@ StagingFolder::StagingFolder(const fs::path& parent, const fs::path& folder, con
       break;
     }
     descriptor_ = open_folder(candidate);
-    if (descriptor_ >= 0 && lock_new_folder(descriptor_, candidate)) {
-      path_ = candidate;
-      staged.folders.emplace(path_, folder);
-      return;
+    fault = descriptor_ < 0 ? errno : 0;
+    if (fault == 0 && lock_new_folder(descriptor_, candidate)) {
+      if (write_marker(descriptor_)) {
+        path_ = candidate;
+        staged.folders.emplace(path_, folder);
+        return;
+      }
+      fault = errno;
     }
     if (descriptor_ >= 0) close(descriptor_);
     descriptor_ = -1;
+    if (fault == 0) continue;  // another process took it for left behind
+    rmdir(candidate.c_str());
+    break;
   }
   throw output_error(result, fault);
 }
@@ -119,6 +141,7 @@ void StagingFolder::forget() {
 
 bool StagingFolder::become(const fs::path& destination) {
   if (rename(path_.c_str(), destination.c_str()) != 0) return false;
+  unlinkat(descriptor_, kMarker, 0);
   forget();
   return true;
 }

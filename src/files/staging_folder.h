@@ -7,7 +7,8 @@ namespace heightlight {
 
 /// A hidden folder, `.heightlight-PID-N`, in which results wait until they are whole. It goes away with this
 /// object, or with the process where that exits without unwinding. What a killed process left is removed by
-/// the next that stages in the same place: a lock, which ends with its process, tells it from those in use.
+/// the next that stages in the same place: a file in it, `.heightlight-staging`, tells it from folders of
+/// other people's that are called alike, and a lock, which ends with its process, from those in use.
 class StagingFolder {
  public:
   /// In `parent`, which exists; what it holds is to stand in `folder`. Throws OutputError, naming `result`,

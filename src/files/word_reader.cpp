@@ -11,11 +11,14 @@ bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
 }  // namespace
 
-WordReader::WordReader(const std::filesystem::path& path)
-    : path_(path), file_(open_input(path)), block_(1 << 20) {}
+WordReader::WordReader(const InputFile& file) : file_(file), stream_(file.rewound()), block_(1 << 20) {
+  constexpr std::string_view kMark = "\xef\xbb\xbf";
+  refill();
+  if (std::string_view(block_.data(), end_).starts_with(kMark)) begin_ = kMark.size();
+}
 
 Error WordReader::error(const std::string& fault) const {
-  return file_error(path_, "line " + std::to_string(line_) + ": " + fault);
+  return file_.error("line " + std::to_string(line_) + ": " + fault);
 }
 
 bool WordReader::refill() {
@@ -23,8 +26,8 @@ bool WordReader::refill() {
             block_.begin() + static_cast<std::ptrdiff_t>(end_), block_.begin());
   end_ -= begin_;
   begin_ = 0;
-  const std::size_t got = std::fread(block_.data() + end_, 1, block_.size() - end_, file_.get());
-  if (std::ferror(file_.get())) throw file_error(path_, "cannot be read to its end");
+  const std::size_t got = std::fread(block_.data() + end_, 1, block_.size() - end_, stream_);
+  if (std::ferror(stream_)) throw file_.error("cannot be read to its end");
   end_ += got;
   return got > 0;
 }

@@ -12,8 +12,8 @@ namespace heightlight {
 /// Takes a text file apart at white space, a block at a time.
 class WordReader {
  public:
-  /// Throws Error as open_input does.
-  explicit WordReader(const std::filesystem::path& path);
+  /// From the file's beginning; a UTF-8 byte-order mark there is left out. The file must outlive this object.
+  explicit WordReader(const InputFile& file);
 
   /// The next word, valid until the next call; empty at the end of the file. Throws Error for a word of more
   /// than 65536 characters, and when the file can't be read.
@@ -28,8 +28,8 @@ class WordReader {
  private:
   bool refill();
 
-  std::filesystem::path path_;
-  File file_;
+  const InputFile& file_;
+  std::FILE* stream_;
   std::vector<char> block_;
   std::size_t begin_ = 0;  ///< of what is not taken yet, in block_
   std::size_t end_ = 0;

@@ -74,8 +74,8 @@ inline nlohmann::json read_sidecar(const std::filesystem::path& folder) {
 }
 
 /// Bakes a map under the name "m"; the warnings.
-inline std::vector<std::string> bake_map(const Heightmap& map, const BakeOptions& options,
-                                         const std::filesystem::path& folder) {
+inline std::vector<Warning> bake_map(const Heightmap& map, const BakeOptions& options,
+                                     const std::filesystem::path& folder) {
   LoadedHeightmap loaded;
   loaded.map = map;
   return bake_material(std::move(loaded), {"m.exr"}, options, folder, "m");

@@ -310,20 +310,17 @@ TEST_CASE("missing samples are open in files of integers and NaN in files of flo
   }
 }
 
-TEST_CASE("terraces of 8-bit heights are warned of, not blurred", "[bake]") {
+TEST_CASE("what is to be known of a file stands in its sidecar", "[bake]") {
   const ScratchFolder folder;
   LoadedHeightmap loaded;
   loaded.map = make_synth_map("fbm", 32, Boundary::tile, 0.1);
-  for (float& height : loaded.map.height.values) height = std::round(height * 2550) / 2550;
-  loaded.facts.is_integer = true;
-  loaded.facts.levels = 200;
+  loaded.warnings = {{"some of it is odd", "no_data -1"}};
   BakeOptions options;
   options.maps = {MaterialMap::height};
-  const std::vector<std::string> warnings = bake_material(loaded, {"m.png"}, options, folder.path(), "m");
+  const std::vector<Warning> warnings = bake_material(loaded, {"m.png"}, options, folder.path(), "m");
   REQUIRE(warnings.size() == 1);
-  CHECK(warnings[0].find("terraces") != std::string::npos);
-  CHECK(warnings[0].find("16-bit") != std::string::npos);
-  CHECK(read_sidecar(folder.path())["warnings"].size() == 1);
+  CHECK(warnings[0].message == "some of it is odd");
+  CHECK(read_sidecar(folder.path())["warnings"] == nlohmann::json::array({"some of it is odd (no_data -1)"}));
 }
 
 TEST_CASE("options that contradict each other are refused before any work, and too little memory is named",

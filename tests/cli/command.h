@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <sstream>
 #include <string>
 
 #include "scratch_folder.h"
@@ -30,6 +31,15 @@ inline CommandResult run_command(const std::string& arguments, const ScratchFold
   result.out = read_text(streams / "out");
   result.error = read_text(streams / "error");
   return result;
+}
+
+/// Whether nothing was said on stderr but warnings of maps, which these small ones deserve.
+inline bool has_only_warnings(const std::string& error) {
+  std::istringstream lines(error);
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("heightlight: warning: ")) return false;
+  }
+  return true;
 }
 
 }  // namespace heightlight

@@ -23,7 +23,7 @@ const std::vector<std::string> kRgba{"R", "G", "B", "A"};
 
 }  // namespace
 
-TEST_CASE("Grey stored as RGB is one channel, and alpha does not count", "[files]") {
+TEST_CASE("Grey stored as RGB is one channel beside alpha", "[files]") {
   const ScratchFolder scratch;
   const LoadedHeightmap rgb = load_channel(
       write_samples(scratch / "rgb.png", 2, 1, kRgb, std::vector<std::uint8_t>{1, 1, 1, 9, 9, 9}));
@@ -33,7 +33,7 @@ TEST_CASE("Grey stored as RGB is one channel, and alpha does not count", "[files
   const LoadedHeightmap rgba = load_channel(
       write_samples(scratch / "rgba.png", 2, 1, kRgba, std::vector<std::uint8_t>{1, 1, 1, 0, 9, 9, 9, 200}));
   CHECK(rgba.facts.channel == "grey (R = G = B)");
-  CHECK(rgba.facts.lowest == 1);
+  CHECK(rgba.facts.lowest == 9);  // the other is transparent
   const LoadedHeightmap grey = load_channel(
       write_samples(scratch / "ya.png", 2, 1, {"Y", "A"}, std::vector<std::uint8_t>{1, 50, 9, 200}));
   CHECK(grey.facts.channel == "Y");

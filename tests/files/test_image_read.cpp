@@ -74,7 +74,8 @@ TEST_CASE("What is no file of samples is refused with its name and the reason", 
     CHECK_THROWS_WITH(recognise_format(path), Contains(path.string()) && Contains(reason));
   };
   fault(write_text(scratch / "notes.png", "Dear diary, today I rendered a teapot.\n"), "holds text");
-  fault(write_text(scratch / "archive.png", std::string("PK\x03\x04\x14\x00\x00\x00", 8)), "is no image");
+  fault(write_text(scratch / "archive.png", std::string("PK\x03\x04\x14\x00\x00\x00", 8)),
+        "is a zip archive; unpack it");
   fault(write_text(scratch / "empty.png", ""), "is empty");
   fault(scratch / "absent.png", "no such file");
   fault(scratch.path(), "directory");

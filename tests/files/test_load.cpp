@@ -139,9 +139,9 @@ TEST_CASE("No-data goes missing whether the header, the user or NaN says so", "[
   CHECK(std::isnan(declared.height.values[0]));
   CHECK(declared.base == -1);
 
-  const fs::path undeclared = write_text(scratch / "b.asc", size + values);
+  const fs::path undeclared = write_text(scratch / "b.asc", size + "-8888 5 -1 7\n");
   CHECK(count_missing(load(undeclared).map) == 0);
-  options.no_data = -9999;
+  options.no_data = -8888;
   CHECK(count_missing(load(undeclared, options).map) == 1);
 
   options.no_data = -1;

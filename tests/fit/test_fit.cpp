@@ -201,11 +201,11 @@ TEST_CASE("maps with too few filled bins, or one kind of AO, are refused", "[fit
     return scratch / "c.csv";
   };
   std::vector<BounceCurves> curves = synthetic_curves(kBounded, 0.1, 0.7, 0, 1);
-  CHECK(read_judged_map(write(curves), ~0ULL).material == "c");
-  CHECK_THROWS_WITH(read_judged_map(write({curves[0]}), ~0ULL),
+  CHECK(read_judged_maps(write(curves), ~0ULL)[0].material == "c");
+  CHECK_THROWS_WITH(read_judged_maps(write({curves[0]}), ~0ULL),
                     Contains("c.csv") && Contains("no curves over sky"));
   curves[1].filled.resize(5);
-  CHECK_THROWS_WITH(read_judged_map(write(curves), ~0ULL), Contains("only 5 bins of sky_view_factor"));
+  CHECK_THROWS_WITH(read_judged_maps(write(curves), ~0ULL), Contains("only 5 bins of sky_view_factor"));
 }
 
 }  // namespace heightlight

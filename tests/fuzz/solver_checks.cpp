@@ -10,6 +10,7 @@
 #include "base/hash.h"
 #include "base/parallel.h"
 #include "heightlight/transport.h"
+#include "transport/gathered_ones.h"
 #include "transport/gathered_tiles.h"
 #include "visibility/exact_walk.h"
 #include "visibility/ray_caster.h"
@@ -215,7 +216,7 @@ void compare_threads(const char* name, const TexelVector& field, Build&& build, 
     if (!same(alone, outcome_of(*other, field)))
       faults.push_back(std::string(name) + " depend on the number of threads");
   }
-  const double row_sum = row_sum_error(*one);
+  const double row_sum = gathered_ones_error(*one);
   largest.row_sum = std::max(largest.row_sum, row_sum);
   if (!(row_sum <= kRowSumBound))
     faults.push_back(std::string("sky + sum F of ") + name + " is not 1 but off by " +

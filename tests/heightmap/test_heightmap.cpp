@@ -72,13 +72,14 @@ TEST_CASE("Edge steps leave missing samples out, and say NaN where nothing is le
 TEST_CASE("Levels are counted once each, NaN never, and 0 is −0", "[heightmap]") {
   Image<double> values(6, 1);
   values.values = {0.0, -0.0, 1.5, 1.5, std::numeric_limits<double>::quiet_NaN(), -3};
-  CHECK(count_levels(values) == 3);
+  CHECK(count_levels(values).count == 3);
+  CHECK(count_levels(values).step == 2.25);  // of -3, 0, 1.5: 3 and 1.5
 }
 
 TEST_CASE("Levels are counted up to what 16 bits can tell apart", "[heightmap]") {
   Image<double> values(300, 300);
   for (std::size_t i = 0; i < values.size(); ++i) values.values[i] = static_cast<double>(i % kMostLevels);
-  CHECK(count_levels(values) == kMostLevels);
+  CHECK(count_levels(values).count == kMostLevels);
   for (std::size_t i = 0; i < values.size(); ++i) values.values[i] = static_cast<double>(i);
-  CHECK(count_levels(values) == kMostLevels + 1);
+  CHECK(count_levels(values).count == kMostLevels + 1);
 }

@@ -5,6 +5,7 @@
 
 #include "stability/hard_maps.h"
 #include "test_maps.h"
+#include "transport/gathered_ones.h"
 #include "transport/simulated.h"
 
 // Totals against a dense solution of (I − F ρ) x = E₀ in extended precision, F being taken column by column
@@ -115,7 +116,7 @@ TEST_CASE("a hundred gathers of ones: what all receivers see of ones stays one",
   const SteadyWalks transport(
       build_horizon_transport(surface, {.sky = {.walk = {.azimuths = 64, .fineness = 16}},
                                         .gather = {.walk = {.azimuths = 32, .fineness = 16}}}));
-  const double row_sums = row_sum_error(transport);
+  const double row_sums = gathered_ones_error(transport);
   CHECK(row_sums < 1e-12);
   // light that is 1 everywhere is what E₀ and one bounce of it give back
   TexelVector light(std::size_t{kSize} * kSize, 1);

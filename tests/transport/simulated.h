@@ -53,6 +53,7 @@ class SteadyWalks : public Transport {
   }
 
   TexelVector gather(const TexelVector& x) const override { return walks_->gather(x); }
+  TexelVector surface_share() const override { return walks_->surface_share(); }
   Totals solve(const std::vector<LightSystem>& systems, const Watch& watch) const override {
     return walks_->solve(systems, watch);
   }

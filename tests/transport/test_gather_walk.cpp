@@ -127,7 +127,7 @@ TEST_CASE("the gather's lanes and its one lane see the same light on every instr
 TEST_CASE("what a gather sees weighs what the sky's walk leaves of the hemisphere", "[transport][gather]") {
   const auto [name, map] = ground(GENERATE(range(0, kGrounds)));
   // So fine that all but the farthest things are looked at by each receiver, as gathers walk; so many
-  // azimuths that Σ S(m₀) = K to exp(−K asinh(1/kSteep)) = 10⁻⁵ where the sky's walk takes it to be K.
+  // azimuths that Σ S(m₀) = K to exp(−K asinh(1/2)) = 10⁻⁵ where the sky's walk takes it to be K.
   const WalkOptions options{.azimuths = 24, .fineness = 32, .peak_share = 0.3F};
   const Surface surface = build_surface(map);
   const WalkedSky sky = walk_sky_with(look_far, walk_sky, surface, options);

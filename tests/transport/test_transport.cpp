@@ -6,6 +6,7 @@
 #include "base/texel_algebra.h"
 #include "heightlight/error.h"
 #include "test_maps.h"
+#include "transport/gathered_ones.h"
 #include "transport/simulated.h"
 
 namespace heightlight {
@@ -35,7 +36,7 @@ TEST_CASE("sky + links = 1, and all bounces with their tail sum to 1", "[transpo
   const Finder finder = GENERATE(by_rays(128), by_steady_walks(), by_exact_slices(16));
   CAPTURE(finder.name);
   const Simulated rough = simulate_map(make_rough_map(width, height, boundary, relief, missing, 2), finder);
-  CHECK(row_sum_error(*rough.transport) < kRowTolerance);
+  CHECK(gathered_ones_error(*rough.transport) < kRowTolerance);
   const TexelVector& sum = rough.series.sum;
   for (std::size_t i = 0; i < sum.size(); ++i) {
     const bool hole = std::isnan(rough.surface.map.height.values[i]);

@@ -168,7 +168,7 @@ Shortfall plane_shortfall(double steepness, int width, int height, const WalkOpt
 }
 
 TEST_CASE("the walk finds an open tilted plane open, also below the horizontal", "[visibility][walk]") {
-  const double steepness = GENERATE(0.3, 2.5);  // below and above kSteep
+  const double steepness = GENERATE(0.3, 2.5);  // below and above steep_slope
   // As far as samples lie on the surface itself: rounding, 10⁻⁷ in slopes and sums.
   const Shortfall near =
       plane_shortfall(steepness, 35, 37, {.azimuths = 32, .fineness = 48, .peak_share = 0.3F});

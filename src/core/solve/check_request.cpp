@@ -53,6 +53,7 @@ void check_accuracy(const Accuracy& accuracy, const Wanted& wanted) {
   }
   if (accuracy.azimuths != 0) check_azimuths(accuracy.azimuths);
   if (accuracy.visibility == Visibility::exact_slices) return;
+  if (accuracy.plan) check_horizon_plan(*accuracy.plan);
   if (!(accuracy.error > 0) || accuracy.error > 1) {
     throw UsageError("error", std::to_string(accuracy.error), "must be above 0, and 1 at most");
   }

@@ -58,7 +58,11 @@ void find_light(const Task& task, Results& results) {
   const TexelVector at_seen_albedo = find_totals(task, transport, results);
   watch.lap();
   if (wanted.bounces > 0) {
-    if (evidence.energy) evidence.energy->row_sum_max_error = row_sum_error(transport);
+    if (evidence.energy) {
+      const RowSumError row_sums = row_sum_error(transport);
+      evidence.energy->row_sum_max_error = row_sums.largest;
+      evidence.energy->row_sum_rmse = row_sums.rms;
+    }
     evidence.seconds.transport += watch.lap();
     solve_bounces(task, transport, results);
     evidence.seen->deep = deep_seen(transport, at_seen_albedo);

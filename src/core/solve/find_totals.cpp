@@ -110,10 +110,9 @@ void check_and_refine(const Task& task, const Transport& transport, std::vector<
 }  // namespace
 
 void note_solver(double residual, int iterations, Evidence& evidence) {
-  if (!evidence.energy) return;
-  EnergyCheck& energy = *evidence.energy;
-  energy.solver_residual = std::max(energy.solver_residual, residual);
-  energy.solver_iterations = std::max(energy.solver_iterations, iterations);
+  // A residual that is none (NaN) stays.
+  if (std::isnan(residual) || residual > evidence.solver_residual) evidence.solver_residual = residual;
+  evidence.solver_iterations = std::max(evidence.solver_iterations, iterations);
 }
 
 TexelVector find_totals(const Task& task, const Transport& transport, Results& results) {

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "base/digits.h"
 #include "solve/solver.h"
@@ -18,6 +20,18 @@ std::string missed_error(const Evidence& evidence) {
   if (found.empty()) return {};
   return "the error wanted, " + in_digits(evidence.error_wanted, 2) +
          ", is missed: exact walks find an RMSE of " + found;
+}
+
+std::vector<std::string> find_faults(const Evidence& evidence) {
+  constexpr double kConverged = 1e-6;  // a hundred times what the solver aims at
+  std::vector<std::string> faults;
+  if (std::string missed = missed_error(evidence); !missed.empty()) faults.push_back(std::move(missed));
+  if (!(evidence.solver_residual <= kConverged)) {
+    faults.push_back("the light of all bounces did not converge: after " +
+                     std::to_string(evidence.solver_iterations) + " steps a relative residual of " +
+                     in_digits(evidence.solver_residual, 2) + " is left");
+  }
+  return faults;
 }
 
 }  // namespace heightlight

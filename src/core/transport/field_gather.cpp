@@ -32,4 +32,19 @@ TexelVector gather_field(const FieldGather& gather, const TexelVector& x, Gather
   return result;
 }
 
+TexelVector find_surface_share(const FieldGather& gather, const GatherTurn& turn) {
+  FieldPyramid any = gather.gather.make_pyramid();
+  any.fill(gather.sky);
+  TexelVector share(gather.direct.size());
+  gather.gather.run(
+      turn, {&any},
+      [&](const ReceiverTile& tile, const GatherSums& sums) {
+        for_present(tile, [&](std::size_t at, int row, int column) {
+          share[gather.sky.index(row, column)] = double{sums.weight[at]};
+        });
+      },
+      gather.watch);
+  return share;
+}
+
 }  // namespace heightlight

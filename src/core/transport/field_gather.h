@@ -17,4 +17,7 @@ struct FieldGather {
 /// F x, where x is finite everywhere. 0 where missing.
 TexelVector gather_field(const FieldGather& gather, const TexelVector& x, GatherTurn turn);
 
+/// The share of what a receiver could see that is surface, as the walks add it up. 0 where missing.
+TexelVector find_surface_share(const FieldGather& gather, const GatherTurn& turn);
+
 }  // namespace heightlight

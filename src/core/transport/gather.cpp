@@ -90,14 +90,22 @@ std::unique_ptr<BounceSequence> Transport::start_bounces() const {
   return std::make_unique<Gathers>(*this);
 }
 
-double row_sum_error(const Transport& transport) {
-  const TexelVector gathered = transport.gather(TexelVector(transport.direct.size(), 1.0));
-  double worst = 0;
-  for (std::size_t i = 0; i < gathered.size(); ++i) {
+TexelVector FormFactors::surface_share() const { return gather(TexelVector(direct.size(), 1.0)); }
+
+RowSumError row_sum_error(const Transport& transport) {
+  const TexelVector share = transport.surface_share();
+  RowSumError error;
+  double squares = 0;
+  std::size_t present = 0;
+  for (std::size_t i = 0; i < share.size(); ++i) {
     if (std::isnan(transport.sky_view_factor.values[i])) continue;
-    worst = std::max(worst, std::fabs(transport.direct[i] + gathered[i] - 1));
+    const double left = std::fabs(transport.direct[i] + share[i] - 1);
+    error.largest = std::max(error.largest, left);
+    squares += left * left;
+    ++present;
   }
-  return worst;
+  if (present > 0) error.rms = std::sqrt(squares / static_cast<double>(present));
+  return error;
 }
 
 }  // namespace heightlight

@@ -181,6 +181,7 @@ std::vector<float> HorizonPilot::walk_sky_of(const WalkOptions& options, EvenWal
         const auto strip = static_cast<std::size_t>(i);
         const auto tile = std::make_unique<WalkTile>();
         const auto sums = std::make_unique<SkySums>();
+        sums->steep = steep_slope(static_cast<int>(azimuths.size()) / (even ? 2 : 1));
         const auto far = std::make_unique<FarView>();
         tile->load(surface_, mips_, options, rings, frames_[strip]);
         const auto walk = [&](std::size_t first, std::size_t step) {

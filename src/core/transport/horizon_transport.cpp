@@ -35,6 +35,10 @@ class HorizonTransport : public Transport {
     return gather_field(field_gather(), x, {plan_.walk.azimuths, 0.25});
   }
 
+  TexelVector surface_share() const override {
+    return find_surface_share(field_gather(), {plan_.first_bounce_azimuths, 0.25});
+  }
+
   std::unique_ptr<BounceSequence> start_bounces() const override {
     const BounceWalk walk{.azimuths = plan_.first_bounce_azimuths, .error = error_};
     std::shared_ptr<const MapGather> gather = gather_;
@@ -66,12 +70,33 @@ class HorizonTransport : public Transport {
 
 }  // namespace
 
+void check_horizon_plan(const HorizonPlan& plan) {
+  constexpr int kMostGathered = 4096;
+  constexpr int kFinest = 128;
+  check_azimuths(plan.sky.walk.azimuths);
+  if (plan.sky.full_from > 0 && plan.sky.walk.azimuths % 4 != 0) {
+    throw UsageError("azimuths", std::to_string(plan.sky.walk.azimuths),
+                     "must be a multiple of 4 where open ground walks every other one");
+  }
+  for (const int azimuths : {plan.gather.walk.azimuths, plan.gather.first_bounce_azimuths}) {
+    check_azimuths(azimuths);
+    if (azimuths > kMostGathered) {
+      throw UsageError("azimuths", std::to_string(azimuths),
+                       "of gathers must be " + std::to_string(kMostGathered) + " at most");
+    }
+  }
+  for (const WalkOptions& walk : {plan.sky.walk, plan.gather.walk}) {
+    if (walk.fineness < 1 || walk.fineness > kFinest)
+      throw UsageError("fineness", std::to_string(walk.fineness), "must be from 1 to 128");
+    if (!(walk.peak_share >= 0 && walk.peak_share <= 1))
+      throw UsageError("peak_share", std::to_string(walk.peak_share), "must be from 0 to 1");
+  }
+}
+
 std::unique_ptr<Transport> build_horizon_transport(const Surface& surface, const HorizonPlan& plan,
                                                    double error, const Watch& watch) {
   if (!(error > 0)) throw UsageError("error", std::to_string(error), "must be positive");
-  check_azimuths(plan.sky.walk.azimuths);
-  check_azimuths(plan.gather.walk.azimuths);
-  check_azimuths(plan.gather.first_bounce_azimuths);
+  check_horizon_plan(plan);
   const HeightMips mips = build_height_mips(surface);
   HorizonSky sky = walk_horizon_sky(surface, mips, plan.sky, {}, watch);
   PlannedGather planned{.plan = plan.gather,

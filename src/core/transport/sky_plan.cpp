@@ -81,7 +81,8 @@ WalkOptions choose_azimuths(HorizonPilot& pilot, WalkOptions options, double err
   const double tried = pilot.azimuth_error(options);
   const double guess = kTriedAzimuths * std::pow(tried / error, 1 / kAzimuthOrder);
   options.azimuths =
-      std::clamp(static_cast<int>(guess) / 2 * 2, kFewestAzimuths, HorizonPilot::kManyAzimuths);
+      std::clamp(static_cast<int>(std::min(guess, double{HorizonPilot::kManyAzimuths})) / 2 * 2,
+                 kFewestAzimuths, HorizonPilot::kManyAzimuths);
   reached = pilot.azimuth_error(options);
   const auto step = [](int azimuths) { return std::max(2, azimuths / 20 * 2); };
   while (reached > error && options.azimuths < HorizonPilot::kManyAzimuths) {

@@ -148,6 +148,7 @@ HorizonSky walk_horizon_sky(const Surface& surface, const HeightMips& mips, cons
   if (task.wanted.second) sky.moments.second = Image<std::array<float, 5>>(width, height);
   for_tiles(surface, mips, options, route, "sky", watch, [&](Workspace& work) {
     work.sums.wanted = task.wanted;
+    work.sums.steep = steep_slope(plan.full_from > 0 ? options.azimuths / 2 : options.azimuths);
     work.sums.clear();
     if (plan.full_from > 0) {
       walk_sparsely(route, plan.full_from, work);

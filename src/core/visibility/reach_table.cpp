@@ -11,6 +11,9 @@ void check_reach(const Reach& reach) {
   if (!(reach.distance > 0) || !std::isfinite(reach.distance)) {
     throw UsageError("max_distance", "", "must be a positive number");
   }
+  constexpr double kLongest = 1e12;  // its square is a single-precision number
+  if (reach.distance < 1 / kLongest || reach.distance > kLongest)
+    throw UsageError("max_distance", "", "must be from 1e-12 to 1e12");
 }
 
 ReachTable make_reach_table(const AzimuthTable& azimuth, const Reach& sphere) {

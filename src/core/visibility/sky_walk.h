@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bitset>
+#include <cmath>
 
 #include "visibility/far_view.h"
 #include "visibility/reach_table.h"
@@ -17,8 +19,9 @@
 // the slope m₀ = −c / n_z, count for nothing: walks start there, so that m ≥ m₀.
 //
 // Over K azimuths, A = Σ S(m) / Σ S(m₀). The continuous mean of S(m₀) is 1, and K equal steps of a smooth
-// periodic function give it to within exp(−K asinh(n_z / √(1−n_z²))): only receivers steeper than kSteep need
-// the second sum. α = Σ (1 − m √q) / K exactly: sin h₀ is odd in the azimuth, and K is even.
+// periodic function give it to within exp(−K asinh(n_z / √(1−n_z²))): only receivers steeper than
+// steep_slope(K) need the second sum. α = Σ (1 − m √q) / K exactly: sin h₀ is odd in the azimuth, and K is
+// even.
 //
 // Moments of the sky are likewise closed forms. With s = sin h = m √q, e = 1 − s and ζ = π/2 − h − m q,
 //     ∫ cos³θ = e² (2 + s)/3,   ∫ sinθ cos²θ = q √q/3,   ∫ sin²θ cosθ = e (1 + s + s²)/3,
@@ -40,6 +43,13 @@ constexpr std::size_t sky_block(int i, int j) {
   return static_cast<std::size_t>(i / kSkyBlockRows * kSkyBlocksAcross + j / kSkyBlockColumns);
 }
 
+/// Slope of the normal's plane from which on Σ S(m₀) over so many azimuths in equal steps is summed, not
+/// taken as their number: where exp(−K asinh(1/slope)) would exceed e^−10, and from 2 on.
+inline float steep_slope(int azimuths) {
+  constexpr double kSteepest = 2;
+  return static_cast<float>(std::min(kSteepest, 1 / std::sinh(10.0 / azimuths)));
+}
+
 /// Sums over the azimuths walked so far, per receiver of a tile.
 struct SkySums {
   using Values = std::array<float, WalkTile::kTexels>;
@@ -56,13 +66,11 @@ struct SkySums {
   alignas(64) Values slope{};  ///< keep_slope: of the last azimuth's horizon, m
 
   SkyBlocks blocks = SkyBlocks().set();  ///< whose receivers walk
+  float steep = steep_slope(64);         ///< of the fewest azimuths that any receiver walks
 
   /// Before the first azimuth: of all blocks.
   void clear();
 };
-
-/// Slope of the normal's plane from which on Σ S(m₀) is summed, not taken as K.
-constexpr float kSteep = 2.0F;
 
 /// Walks one azimuth from every receiver of the tile. The readable one.
 void walk_sky_scalar(const WalkTile& tile, const AzimuthTable& azimuth, const FarView& far, SkySums& sums);

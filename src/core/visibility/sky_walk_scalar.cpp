@@ -263,7 +263,7 @@ void for_receivers(const WalkTile& tile, const AzimuthTable& azimuth, SkySums& s
       const float tangent = tile.slope_x[at] * azimuth.world_x + tile.slope_y[at] * azimuth.world_y;
       const float n_z = tile.normal_z[at];
       const float c = -n_z * tangent;
-      const bool steep = n_z * n_z * (1 + kSteep * kSteep) < 1;
+      const bool steep = n_z * n_z * (1 + sums.steep * sums.steep) < 1;
       const float full = steep ? integrate_slice(c, n_z, tangent, {}).sky : 1;
       add_slice(azimuth, at, slice_of(i, j, c, n_z, tangent), full, sums);
     }

@@ -67,7 +67,7 @@ HWY_INLINE void add_slices(const WalkTile& tile, const AzimuthTable& azimuth, co
   const VF n_z = hn::Load(kF, tile.normal_z.data() + at);
   add_to(sums.sky.data() + at, 1, slices.sky);
   add_to(sums.solid.data() + at, 1, slices.solid);
-  const auto is_steep = hn::Lt(hn::Mul(n_z, n_z), hn::Set(kF, 1 / (1 + kSteep * kSteep)));
+  const auto is_steep = hn::Lt(hn::Mul(n_z, n_z), hn::Set(kF, 1 / (1 + sums.steep * sums.steep)));
   VF full = hn::Set(kF, 1.0F);
   if (HWY_UNLIKELY(!hn::AllFalse(kF, is_steep))) {
     const VF c = hn::Neg(hn::Mul(n_z, bunch.tangent[v]));

@@ -75,26 +75,14 @@ void write_baked(const std::filesystem::path& path, const BakedTexture& texture,
   });
 }
 
-/// What the user should know of the input before believing the maps.
-std::vector<std::string> find_warnings(const SourceFacts& facts, const Heightmap& map,
-                                       const BakeOptions& options) {
-  std::vector<std::string> warnings;
-  if (facts.is_integer && facts.levels > 1 && facts.levels <= 256) {
-    warnings.push_back(fmt::format(
-        "only {} levels: slopes are terraces {:.2g} high, which show as contour lines; use the 16-bit or "
-        "float original, or smooth the heights before (nothing is blurred here)",
-        facts.levels, relief(map) / static_cast<double>(facts.levels - 1)));
-  }
-  if (relief(map) == 0) warnings.push_back("the map is level: everything is open");
-  const bool tiles = map.boundary == Boundary::tile;
-  if (tiles && !measure_edge_steps(map.height).wraps) {
-    warnings.push_back(
-        "the map is to tile, but its edges do not meet; it should have open edges if it stands alone");
-  }
-  if (options.dither && tiles &&
+/// What the user should know before believing the maps, of the file and of what was made of it.
+std::vector<Warning> find_warnings(std::vector<Warning> warnings, const Heightmap& map,
+                                   const Evidence& evidence, const BakeOptions& options) {
+  for (const std::string& fault : find_faults(evidence)) warnings.push_back({fault});
+  if (options.dither && map.boundary == Boundary::tile &&
       (map.height.width % kDitherSide != 0 || map.height.height % kDitherSide != 0)) {
     warnings.push_back(
-        "the dither repeats every 64 texels, which does not divide the map: its pattern has a seam");
+        {"the dither repeats every 64 texels, which does not divide the map: its pattern has a seam"});
   }
   return warnings;
 }
@@ -166,26 +154,23 @@ void check_bake_options(const BakeOptions& options) {
   }
 }
 
-std::vector<std::string> bake_material(LoadedHeightmap loaded,
-                                       const std::vector<std::filesystem::path>& inputs,
-                                       const BakeOptions& options, const std::filesystem::path& folder,
-                                       const std::string& name) {
+std::vector<Warning> bake_material(LoadedHeightmap loaded, const std::vector<std::filesystem::path>& inputs,
+                                   const BakeOptions& options, const std::filesystem::path& folder,
+                                   const std::string& name) {
   check_bake_options(options);
   const std::vector<std::string> files = baked_files(name, options);
-  StagedFolder staged(folder, inputs, files);
+  StagedFolder staged(folder, inputs, files, files.back());
   const Surface surface = build_surface(std::move(loaded.map));
   const Material material = find_material(surface, options);
   const std::vector<BakedTexture> textures = baked_textures(material, options);
   const TexelEncoding encoding = make_encoding(options);
   Stopwatch watch;
-  SidecarFacts facts{.source = inputs[0],
-                     .facts = loaded.facts,
-                     .warnings = find_warnings(loaded.facts, surface.map, options)};
-  if (std::string missed = missed_error(material.results.evidence); !missed.empty())
-    facts.warnings.push_back(std::move(missed));
+  SidecarFacts facts{
+      .source = inputs[0],
+      .facts = loaded.facts,
+      .warnings = find_warnings(std::move(loaded.warnings), surface.map, material.results.evidence, options)};
   std::vector<std::filesystem::path> paths;
   for (std::size_t i = 0; i < textures.size(); ++i) {
-    facts.files.push_back(files[i]);
     paths.push_back(staged.file(files[i]));
   }
   // Compression takes longest, and the libraries compress a file on one thread.
@@ -193,6 +178,7 @@ std::vector<std::string> bake_material(LoadedHeightmap loaded,
     const auto at = static_cast<std::size_t>(i);
     write_baked(paths[at], textures[at], surface, encoding);
   });
+  facts.files = staged.written();  // the shaders that follow are those of every map in the folder
   if (is_wanted(options, MaterialMap::ao_n)) write_shaders(staged);
   facts.output_seconds = watch.lap();
   write_sidecar(staged.file(files.back()), options, material, textures, facts);

@@ -67,6 +67,7 @@ struct BakeOptions {
   std::uint64_t seed = 1;        ///< of pilot, check and dither
   std::uint64_t memory = ~0ULL;  ///< bytes that all of it may take
   Watch watch = {};              ///< of the solution
+  std::string request = {};      ///< what was asked for, as the asker knows it again; kept in the sidecar
 };
 
 /// Names of all files that baking writes for a map of that name, the sidecar last.
@@ -76,12 +77,11 @@ std::vector<std::string> baked_files(const std::string& name, const BakeOptions&
 /// says what each file holds, how it was found and what it errs by; all or none. One visibility pass serves
 /// all of them (two where both a reach and bounces are wanted; toward the azimuths of horizon maps more).
 /// `inputs` are the files that it was read from, the heightmap first, none of which is replaced. Returns
-/// warnings, one line each. Throws UsageError for options that contradict each other, Error when it can't be
+/// warnings. Throws UsageError for options that contradict each other, Error when it can't be
 /// done.
-std::vector<std::string> bake_material(LoadedHeightmap loaded,
-                                       const std::vector<std::filesystem::path>& inputs,
-                                       const BakeOptions& options, const std::filesystem::path& folder,
-                                       const std::string& name);
+std::vector<Warning> bake_material(LoadedHeightmap loaded, const std::vector<std::filesystem::path>& inputs,
+                                   const BakeOptions& options, const std::filesystem::path& folder,
+                                   const std::string& name);
 
 /// Throws UsageError, naming the option, for what no map can be baked with.
 void check_bake_options(const BakeOptions& options);

@@ -51,14 +51,17 @@ Json describe_channel(const BakedChannel& channel, TextureDepth depth) {
 }
 
 Json describe_textures(const BakeOptions& options, const std::vector<BakedTexture>& textures,
-                       const std::vector<std::string>& files) {
+                       const std::vector<FileRecord>& files) {
   Json list = Json::array();
   for (std::size_t i = 0; i < textures.size(); ++i) {
     Json channels = Json::array();
     for (const BakedChannel& channel : textures[i].channels) {
       channels.push_back(describe_channel(channel, options.depth));
     }
-    list.push_back({{"file", files[i]}, {"definition", textures[i].definition}, {"channels", channels}});
+    Json file = describe_file(files[i]);
+    file["definition"] = textures[i].definition;
+    file["channels"] = channels;
+    list.push_back(file);
   }
   return list;
 }
@@ -120,6 +123,7 @@ void write_sidecar(const std::filesystem::path& path, const BakeOptions& options
   const Evidence& evidence = material.results.evidence;
   Json json;
   json["version"] = HEIGHTLIGHT_VERSION;
+  if (!options.request.empty()) json["request"] = options.request;
   json["map"] = describe_map(facts.source, facts.facts.sha256, *material.surface);
   json["files"] = describe_textures(options, textures, facts.files);
   json["conventions"] = describe_conventions(options);
@@ -130,7 +134,7 @@ void write_sidecar(const std::filesystem::path& path, const BakeOptions& options
   }
   json.update(describe_evidence(evidence));
   json["errors"] = describe_errors(options, material);
-  json["warnings"] = facts.warnings;
+  json["warnings"] = describe_warnings(facts.warnings);
   json["time_s"] = describe_times(evidence.seconds);
   json["time_s"]["output"] = facts.output_seconds;
   json["memory"] = describe_memory(evidence);

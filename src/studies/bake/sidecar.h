@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bake/baked_map.h"
+#include "files/file_record.h"
 
 namespace heightlight {
 
@@ -12,8 +13,8 @@ namespace heightlight {
 struct SidecarFacts {
   std::filesystem::path source;
   SourceFacts facts;
-  std::vector<std::string> files = {};  ///< of the textures, in their order
-  std::vector<std::string> warnings;
+  std::vector<FileRecord> files = {};  ///< the textures, in their order
+  std::vector<Warning> warnings;
   double output_seconds = 0;  ///< that writing the textures took
 };
 

@@ -66,6 +66,22 @@ TexelSample sample(const SavedTexels& saved, bool tiles) {
   return texels;
 }
 
+/// What the folder of a run's curves tells of it beside them.
+void add_rest_of_run(const std::filesystem::path& curves_csv, std::uint64_t memory_limit, JudgedMap& map) {
+  const std::optional<RunSummary> run = read_run_summary(curves_csv);
+  if (!run) return;
+  map.material = material_of(run->map);
+  map.expected_seen = run->expected_seen;
+  map.measured_seen = run->measured_seen;
+  if (!has_saved_texels(*run)) return;
+  map.texels =
+      sample(read_saved_texels(curves_csv.parent_path(), *run, judged_albedos(), memory_limit), run->tiles);
+  for (std::size_t i = 0; i < map.texels->size(); ++i) {
+    map.moments.add(SkyViewFactor(double{map.texels->sky_view_factor[i]}),
+                    SeenSkyViewFactor(double{map.texels->seen[i]}));
+  }
+}
+
 }  // namespace
 
 const std::vector<double>& judged_albedos() {
@@ -73,26 +89,22 @@ const std::vector<double>& judged_albedos() {
   return albedos;
 }
 
-JudgedMap read_judged_map(const std::filesystem::path& curves_csv, std::uint64_t memory_limit) {
-  const std::vector<BounceCurves> curves = read_curves_csv(curves_csv);
-  const std::filesystem::path folder = std::filesystem::absolute(curves_csv).parent_path();
-  JudgedMap map;
-  map.name = curves_csv.filename() == "curves.csv" ? folder.filename().string() : curves_csv.stem().string();
-  map.over_alpha = find_kind(curves_csv, curves, AoKind::ambient_occlusion);
-  map.over_sky = find_kind(curves_csv, curves, AoKind::sky_view_factor);
-  const std::optional<RunSummary> run = read_run_summary(folder);
-  map.material = material_of(run ? run->map : map.name);
-  if (!run) return map;
-  map.expected_seen = run->expected_seen;
-  map.measured_seen = run->measured_seen;
-  if (has_saved_texels(folder)) {
-    map.texels = sample(read_saved_texels(folder, judged_albedos(), memory_limit), run->tiles);
-    for (std::size_t i = 0; i < map.texels->size(); ++i) {
-      map.moments.add(SkyViewFactor(double{map.texels->sky_view_factor[i]}),
-                      SeenSkyViewFactor(double{map.texels->seen[i]}));
-    }
+std::vector<JudgedMap> read_judged_maps(const std::filesystem::path& curves_csv, std::uint64_t memory_limit) {
+  const std::filesystem::path path = std::filesystem::absolute(curves_csv);
+  const bool is_curves = path.filename() == "curves.csv";
+  std::vector<JudgedMap> maps;
+  for (const RunCurves& run : read_run_curves(curves_csv, memory_limit)) {
+    JudgedMap& map = maps.emplace_back();
+    map.name = !run.run.empty() ? run.run
+               : is_curves      ? path.parent_path().filename().string()
+                                : path.stem().string();
+    map.over_alpha = find_kind(curves_csv, run.curves, AoKind::ambient_occlusion);
+    map.over_sky = find_kind(curves_csv, run.curves, AoKind::sky_view_factor);
+    map.material = material_of(run.map.empty() ? map.name : run.map);
+    add_rest_of_run(run.run.empty() ? path : path.parent_path() / "runs" / run.run / "curves.csv",
+                    memory_limit, map);
   }
-  return map;
+  return maps;
 }
 
 bool is_resolved(const JudgedMap& map) {

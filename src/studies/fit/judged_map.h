@@ -38,11 +38,12 @@ struct JudgedMap {
   SeenMoments moments;                ///< of those texels
 };
 
-/// Reads CURVES.csv, and what else `simulate` left in its folder. The material is the name of the heightmap
-/// (of the folder, where there is no summary) up to its first `_`, `-` or `.`, without digits at its end.
-/// Throws Error naming the file that is damaged, lacks a kind of AO, has fewer than two bounces or fewer than
-/// kFewestBins filled bins.
-JudgedMap read_judged_map(const std::filesystem::path& curves_csv, std::uint64_t memory_limit);
+/// Reads CURVES.csv, and what else `simulate` left in its folder; of a `dataset.csv` every run, and what lies
+/// in the folders of its runs. The material is the name of the heightmap (of the folder, where there is no
+/// summary) up to its first `_`, `-` or `.`, without digits at its end. Throws Error naming the file that is
+/// damaged, lacks a kind of AO, has fewer than two bounces or fewer than kFewestBins filled bins, or that
+/// belongs to another run than those beside it.
+std::vector<JudgedMap> read_judged_maps(const std::filesystem::path& curves_csv, std::uint64_t memory_limit);
 constexpr std::size_t kFewestBins = 8;
 
 /// Whether the map's samples resolve its surface: the n measured is within 5 % of what reciprocity asks for.

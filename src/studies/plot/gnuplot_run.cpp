@@ -1,17 +1,22 @@
 #include "plot/gnuplot_run.h"
 
 #include <gnuplot-iostream.h>
-#include <spawn.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstring>
 #include <string_view>
 #include <system_error>
+#include <thread>
 #include <vector>
 
 #include "files/interrupt.h"
+#include "files/printable.h"
 #include "heightlight/error.h"
 
 extern char** environ;
@@ -19,7 +24,7 @@ extern char** environ;
 namespace heightlight {
 namespace {
 
-Error gnuplot_error(const std::string& fault) { return Error("plots need gnuplot, " + fault); }
+PlotError gnuplot_error(const std::string& fault) { return PlotError("plots need gnuplot, " + fault); }
 
 std::string system_message(int error_number) { return std::generic_category().message(error_number); }
 
@@ -53,44 +58,97 @@ class MemoryFile {
   int descriptor_;
 };
 
-/// The environment, with the locale that the scripts are written for: in any other, gnuplot may stumble over
-/// Greek letters and degree signs.
+/// The environment, with the locale that the scripts are written for (in any other, gnuplot may stumble over
+/// Greek letters and degree signs), and without the terminal that a user draws on.
 std::vector<std::string> gnuplot_environment() {
   std::vector<std::string> variables;
   for (char** variable = environ; *variable != nullptr; ++variable) {
     const std::string_view text = *variable;
-    if (!text.starts_with("LC_") && !text.starts_with("LANG")) variables.emplace_back(text);
+    if (!text.starts_with("LC_") && !text.starts_with("LANG") && !text.starts_with("GNUTERM"))
+      variables.emplace_back(text);
   }
   variables.emplace_back("LC_ALL=C.UTF-8");
   return variables;
 }
 
-/// Starts gnuplot on the three files and waits; its exit status as waitpid reports it.
-int spawn_gnuplot(const MemoryFile& input, const MemoryFile& output, const MemoryFile& messages) {
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, input.descriptor(), STDIN_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, output.descriptor(), STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, messages.descriptor(), STDERR_FILENO);
-  std::string name = "gnuplot";
-  std::string without_start_up_files = "-d";
-  std::string script = "/dev/stdin";  // as a file, whose first error ends the run
-  char* const arguments[] = {name.data(), without_start_up_files.data(), script.data(), nullptr};
-  std::vector<std::string> variables = gnuplot_environment();
-  std::vector<char*> environment;
-  for (std::string& variable : variables) environment.push_back(variable.data());
-  environment.push_back(nullptr);
-  pid_t child = 0;
-  const int failure = posix_spawnp(&child, name.c_str(), &actions, nullptr, arguments, environment.data());
-  posix_spawn_file_actions_destroy(&actions);
-  if (failure != 0)
-    throw gnuplot_error("which cannot be started (is it installed?): " + system_message(failure));
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0) {
-    if (errno != EINTR) throw gnuplot_error("which was lost: " + system_message(errno));
-  }
-  return status;
+std::vector<char*> pointers_to(std::vector<std::string>& texts) {
+  std::vector<char*> pointers;
+  for (std::string& text : texts) pointers.push_back(text.data());
+  pointers.push_back(nullptr);
+  return pointers;
 }
+
+/// A gnuplot on three files. It ends with this object, and with this process, however that ends.
+class GnuplotProcess {
+ public:
+  GnuplotProcess(std::vector<std::string> words, const MemoryFile& input, const MemoryFile& output,
+                 const MemoryFile& messages) {
+    std::vector<std::string> variables = gnuplot_environment();
+    const std::vector<char*> arguments = pointers_to(words);
+    const std::vector<char*> environment = pointers_to(variables);
+    MemoryFile fault;  // why it could not be started, if it could not
+    const pid_t parent = getpid();
+    child_ = fork();
+    if (child_ < 0) throw gnuplot_error("which cannot be started: " + system_message(errno));
+    if (child_ == 0) {
+      prctl(PR_SET_PDEATHSIG, SIGKILL);
+      if (getppid() != parent) _exit(1);  // it ended before
+      for (const int ignored : {SIGXFSZ, SIGPIPE}) std::signal(ignored, SIG_DFL);
+      const bool ready = dup2(input.descriptor(), STDIN_FILENO) >= 0 &&
+                         dup2(output.descriptor(), STDOUT_FILENO) >= 0 &&
+                         dup2(messages.descriptor(), STDERR_FILENO) >= 0;
+      if (ready) execvpe(arguments[0], arguments.data(), environment.data());
+      const int error_number = errno;
+      static_cast<void>(!write(fault.descriptor(), &error_number, sizeof error_number));
+      _exit(127);
+    }
+    wait();
+    if (const std::string bytes = fault.read_all(); bytes.size() == sizeof(int)) {
+      int error_number = 0;
+      std::memcpy(&error_number, bytes.data(), sizeof error_number);
+      throw gnuplot_error("which cannot be started (is it installed?): " + system_message(error_number));
+    }
+  }
+  ~GnuplotProcess() { end(); }
+  GnuplotProcess(const GnuplotProcess&) = delete;
+  GnuplotProcess& operator=(const GnuplotProcess&) = delete;
+
+  /// As waitpid reports it.
+  int status() const { return status_; }
+
+ private:
+  void wait() {
+    constexpr std::chrono::seconds kPatience{60};
+    const auto late = std::chrono::steady_clock::now() + kPatience;
+    for (;;) {
+      const pid_t ended = waitpid(child_, &status_, WNOHANG);
+      if (ended < 0 && errno != EINTR) {
+        const int error_number = errno;
+        child_ = 0;
+        throw gnuplot_error("which was lost: " + system_message(error_number));
+      }
+      if (ended == child_) {
+        child_ = 0;
+        return;
+      }
+      const bool is_late = std::chrono::steady_clock::now() > late;
+      if (is_late || noted_signal() != 0) end();
+      throw_if_interrupted();
+      if (is_late) throw gnuplot_error("which did not end within a minute");
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+  }
+
+  void end() {
+    if (child_ <= 0) return;
+    kill(child_, SIGKILL);
+    waitpid(child_, nullptr, 0);
+    child_ = 0;
+  }
+
+  pid_t child_ = 0;
+  int status_ = 0;
+};
 
 /// gnuplot shows the line it stumbled on, a caret, and then what is wrong.
 std::string last_line(const std::string& text) {
@@ -101,6 +159,19 @@ std::string last_line(const std::string& text) {
 }
 
 }  // namespace
+
+std::string gnuplot_fault() {
+  try {
+    const MemoryFile input;
+    MemoryFile output;
+    MemoryFile messages;
+    const GnuplotProcess process({"gnuplot", "--version"}, input, output, messages);
+    if (process.status() == 0 && output.read_all().starts_with("gnuplot ")) return "";
+    return gnuplot_error("and what is called so is none").what();
+  } catch (const PlotError& error) {
+    return error.what();
+  }
+}
 
 GnuplotResult run_gnuplot(const std::function<void(gnuplotio::Gnuplot&)>& write_script) {
   MemoryFile input;
@@ -114,10 +185,12 @@ GnuplotResult run_gnuplot(const std::function<void(gnuplotio::Gnuplot&)>& write_
     write_script(script);
   }
   input.rewind();
-  const int status = spawn_gnuplot(input, output, messages);
-  throw_if_interrupted();  // the signal reached gnuplot too
+  // -d: nobody's start-up files. A script from a file, not from a terminal: its first error ends the run.
+  const GnuplotProcess process({"gnuplot", "-d", "/dev/stdin"}, input, output, messages);
+  throw_if_interrupted();  // the signal may have reached gnuplot too
   GnuplotResult result{output.read_all(), messages.read_all()};
-  if (status != 0) throw gnuplot_error("which failed: " + last_line(result.messages));
+  if (process.status() != 0) throw gnuplot_error("which failed: " + last_line(result.messages));
+  if (result.output.empty()) throw gnuplot_error("which drew nothing: " + last_line(result.messages));
   return result;
 }
 
@@ -128,10 +201,13 @@ void send_table(gnuplotio::Gnuplot& script, const std::string& name, const PlotT
 
 std::string gnuplot_quoted(const std::string& text) {
   std::string quoted = "'";
-  for (const char c : text) {
+  for (const char c : printable(text)) {
     if (c == '\'') quoted += c;
-    quoted += c >= '\0' && c < ' ' ? '?' : c;
+    quoted += c;
   }
+  // gnuplot puts titles into CDATA sections of SVG, which these three characters end.
+  for (std::size_t at = quoted.find("]]>"); at != std::string::npos; at = quoted.find("]]>", at))
+    quoted.replace(at, 3, "]] >");
   return quoted + "'";
 }
 

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "heightlight/error.h"
+
 namespace gnuplotio {
 class Gnuplot;
 }
@@ -16,9 +18,17 @@ struct GnuplotResult {
   std::string messages;  ///< its standard error: warnings
 };
 
-/// Runs gnuplot, without anyone's start-up files, on the commands that `write_script` sends. A script that
-/// sets no output file gets its picture back in the result; no file's name ever has to be quoted. Throws
-/// Error naming gnuplot when it is not installed or fails.
+/// A plot could not be drawn: gnuplot is not installed, is not gnuplot, failed, drew nothing or did not end.
+struct PlotError : Error {
+  using Error::Error;
+};
+
+/// Why no plot can be drawn here; empty where gnuplot can be run. Takes some milliseconds.
+std::string gnuplot_fault();
+
+/// Runs gnuplot, without anyone's start-up files, on the commands that `write_script` sends. A script sets no
+/// output file, and gets its picture back in the result; no file's name ever has to be quoted. Throws
+/// PlotError, after a minute at the latest; Cancelled.
 GnuplotResult run_gnuplot(const std::function<void(gnuplotio::Gnuplot&)>& write_script);
 
 /// Rows of columns, as gnuplot reads them.

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "bake/bake.h"
+#include "cli/bake_inputs.h"
+#include "cli/map_options.h"
+
+namespace heightlight {
+
+/// What `heightlight bake` was asked for, as text until it is read.
+struct BakeCommand {
+  std::vector<std::filesystem::path> inputs;
+  LoadOptions load;
+  RunOptions run;
+  std::filesystem::path folder;
+  BakeOptions options;
+  std::string maps;
+  std::string packed;
+  std::string albedo = "0.5";
+  std::string max_distance;
+  std::string falloff = "none";
+  std::string depth;
+  bool skip_existing = false;
+  std::string pattern;
+};
+
+/// Reads the texts, all that does not depend on a map. Throws UsageError for what no map can be baked with.
+void parse_bake_options(BakeCommand& command);
+
+/// "0.05", or "5%" of a width: a length. Throws UsageError.
+double parse_distance(const std::string& text, double width);
+
+/// All that a map's files depend on, as one text. Throws Error for an input that cannot be read.
+std::string request_of(const BakeCommand& command, const BakeInput& input);
+
+/// Whether the files are there as they were written, of this heightmap, and as is asked for now.
+bool is_baked(const BakeCommand& command, const BakeInput& input);
+
+}  // namespace heightlight

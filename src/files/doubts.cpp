@@ -1,0 +1,102 @@
+#include "files/doubts.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+
+#include "base/digits.h"
+#include "base/percentile.h"
+
+namespace heightlight {
+namespace {
+
+/// Median steepness between neighbouring samples, of some 65536 of them; 0 where there are no neighbours.
+double median_slope_deg(const Heightmap& map) {
+  constexpr std::size_t kEnough = 65536;
+  const Image<float>& h = map.height;
+  if (h.width < 2 || h.height < 2) return 0;
+  const int stride = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(h.size() / kEnough))));
+  std::vector<double> slopes;
+  for (int row = 0; row + 1 < h.height; row += stride) {
+    for (int column = 0; column + 1 < h.width; column += stride) {
+      const double here = double{h(row, column)};
+      const double slope = std::hypot((double{h(row, column + 1)} - here) / map.spacing.x,
+                                      (double{h(row + 1, column)} - here) / map.spacing.y);
+      if (!std::isnan(slope)) slopes.push_back(slope);
+    }
+  }
+  if (slopes.empty()) return 0;
+  return std::atan(percentile(std::span<double>(slopes), 0.5)) * 180 / std::numbers::pi;
+}
+
+/// "relief 0.1": a tenth of the width, as images of levels get it.
+std::string tenth_of(double width) { return "relief " + in_digits(width / 10, 3); }
+
+void doubt_relief(const Heightmap& map, const StoredHeights& stored, const LoadOptions& options,
+                  std::vector<Warning>& warnings) {
+  constexpr double kSteep = 60;
+  const double tall = relief(map);
+  const double width = map.height.width * map.spacing.x;
+  const double extent = std::max(width, map.height.height * map.spacing.y);
+  const bool spacing_known =
+      options.width || options.texel || stored.grid || (stored.tiff && stored.tiff->pixel_scale);
+  const double slope = median_slope_deg(map);
+  if (tall == 0) {
+    warnings.push_back({"the map is level: it has no relief"});
+  } else if (!spacing_known && !options.relief && !options.relief_share && tall > 2 * extent) {
+    warnings.push_back({fmt::format("its heights span {:.3g}, and without a spacing its width is taken as 1; "
+                                    "give the distance between samples in the same unit",
+                                    tall),
+                        "texel"});
+  } else if (!spacing_known && !stored.facts.is_stretched && !options.relief && !options.relief_share &&
+             tall > 0.3 * width) {
+    warnings.push_back(
+        {fmt::format("its heights are taken as they are and its width as 1, so that the relief "
+                     "is {:.3g} of the width; a tenth of the width is usual",
+                     tall),
+         tenth_of(width)});
+  } else if (tall > extent) {
+    warnings.push_back(
+        {fmt::format("the relief is {:.3g} times the extent; is the spacing right?", tall / extent),
+         "texel"});
+  } else if (slope > kSteep) {
+    warnings.push_back(
+        {fmt::format("half of it is steeper than {:.0f} degrees; is the relief meant to be {:.3g} "
+                     "of the width?",
+                     slope, tall / width),
+         "relief"});
+  }
+}
+
+void doubt_levels(const Heightmap& map, const SourceFacts& facts, std::vector<Warning>& warnings) {
+  constexpr std::size_t kTexelsPerLevel = 16;  // of fewer, a smooth map has no more levels
+  if (!facts.is_integer || facts.levels < 2 || facts.level_step == 0) return;
+  if (map.height.size() < kTexelsPerLevel * facts.levels) return;
+  const double terrace = facts.level_step / (facts.highest - facts.lowest) * relief(map);
+  warnings.push_back(
+      {fmt::format("only {} levels: slopes are terraces {:.2g} high, which show as contour "
+                   "lines; use the original of 16 bits or floats, or smooth the heights first",
+                   facts.levels, terrace)});
+}
+
+void doubt_edges(const Heightmap& map, std::vector<Warning>& warnings) {
+  if (map.boundary != Boundary::tile || measure_edge_steps(map.height).wraps) return;
+  warnings.push_back({"the map is to tile, but its edges do not meet; give it open ones if it stands alone",
+                      "boundary open"});
+}
+
+}  // namespace
+
+std::vector<Warning> find_doubts(const Heightmap& map, const StoredHeights& stored,
+                                 const LoadOptions& options) {
+  std::vector<Warning> warnings;
+  doubt_relief(map, stored, options, warnings);
+  doubt_levels(map, stored.facts, warnings);
+  doubt_edges(map, warnings);
+  return warnings;
+}
+
+}  // namespace heightlight

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "files/input_file.h"
+
+namespace heightlight {
+
+/// Names of ASCII letters, in any case.
+bool equal_names(const std::string& a, const std::string& b);
+
+/// "R, G, B".
+std::string join_names(const std::vector<std::string>& names, const char* between = ", ");
+
+/// Index of the thing among `names` (channels, parts) that `wanted` names (any case) or counts (from 0).
+/// Throws UsageError naming the file and what there is; `kind` is "channel" or "part".
+std::size_t find_named(const char* kind, const InputFile& file, const std::vector<std::string>& names,
+                       const std::string& wanted);
+
+}  // namespace heightlight

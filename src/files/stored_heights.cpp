@@ -1,0 +1,115 @@
+#include "files/stored_heights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "files/channel.h"
+#include "files/image_read.h"
+#include "files/level_count.h"
+#include "files/named.h"
+#include "files/no_data.h"
+
+namespace heightlight {
+namespace {
+
+StoredHeights read_grid(const InputFile& file, const LoadOptions& options, std::uint64_t memory_limit) {
+  if (options.part) throw UsageError(file.path().string() + ": has no parts; only EXR files have");
+  StoredHeights stored;
+  EsriGrid grid = read_esri_grid(file, memory_limit);
+  if (options.channel) find_named("channel", file, {"height"}, *options.channel);
+  stored.facts.channel = "height";
+  stored.facts.channels = 1;
+  stored.facts.sample_type = "text";
+  stored.facts.declared_no_data = grid.header.no_data;
+  stored.values = std::move(grid.values);
+  stored.grid = grid.header;
+  return stored;
+}
+
+/// Integers without a unit are stretched; those of a digital elevation model are metres.
+bool is_elevation(const StoredImage& image, const LoadOptions& options) {
+  if (!image.tiff || image.bits < 16) return false;
+  const bool is_signed = image.sample_type.starts_with("int");
+  return image.tiff->pixel_scale || (options.texel && (is_signed || image.tiff->no_data));
+}
+
+void take_no_data_tag(StoredHeights& stored) {
+  const std::optional<std::string>& text = stored.tiff->no_data;
+  if (!text || text->empty()) return;
+  stored.facts.declared_no_data = parse_no_data(*text);
+  if (stored.facts.declared_no_data) return;
+  stored.warnings.push_back({"its no-data tag says '" + text->substr(0, 32) +
+                             "', which is no number; no sample was taken for missing by it"});
+}
+
+StoredHeights read_picture(const InputFile& file, FileFormat format, const LoadOptions& options,
+                           std::uint64_t memory_limit) {
+  const StoredImage image = read_image(file, format, memory_limit, options.part);
+  StoredHeights stored;
+  ChannelSamples channel = pick_channel(file, image, options.channel);
+  stored.values = std::move(channel.values);
+  for (const std::vector<std::string>& warnings : {image.warnings, channel.warnings}) {
+    for (const std::string& warning : warnings) stored.warnings.push_back({warning});
+  }
+  stored.facts.channel = channel.name;
+  stored.facts.channels = static_cast<int>(image.channels.size());
+  stored.facts.sample_type = image.sample_type;
+  stored.facts.bits = image.bits;
+  stored.facts.is_integer = image.is_integer;
+  stored.facts.is_stretched = image.is_integer && !is_elevation(image, options);
+  stored.tiff = image.tiff;
+  if (!image.tiff) return stored;
+  take_no_data_tag(stored);
+  stored.facts.white_is_zero = image.is_integer && image.tiff->white_is_zero;
+  return stored;
+}
+
+/// Esri's software reads -9999 as missing where a grid's header names no other value.
+void assume_esri_default(StoredHeights& stored) {
+  constexpr double kEsriDefault = -9999;
+  if (!stored.grid || stored.grid->no_data) return;
+  const std::size_t dropped = drop_no_data(kEsriDefault, stored.facts.sample_type, stored.values);
+  if (dropped == 0) return;
+  stored.facts.declared_no_data = kEsriDefault;
+  stored.warnings.push_back(
+      {std::to_string(dropped) +
+       " samples are -9999, which means missing where the header names no other value"});
+}
+
+/// Makes NaN of what is missing, and notes range and levels of the rest.
+void drop_missing(const InputFile& file, const std::optional<double>& no_data, StoredHeights& stored) {
+  SourceFacts& facts = stored.facts;
+  for (const std::optional<double>& value : {no_data, facts.declared_no_data}) {
+    if (value) drop_no_data(*value, facts.sample_type, stored.values);
+  }
+  assume_esri_default(stored);
+  facts.lowest = std::numeric_limits<double>::infinity();
+  facts.highest = -facts.lowest;
+  for (double& value : stored.values.values) {
+    if (!std::isfinite(value)) {
+      value = std::numeric_limits<double>::quiet_NaN();
+    } else {
+      facts.lowest = std::min(facts.lowest, value);
+      facts.highest = std::max(facts.highest, value);
+    }
+  }
+  if (facts.lowest > facts.highest) throw file.error("all its samples are missing (no-data)");
+  const Levels levels = count_levels(stored.values);
+  facts.levels = levels.count;
+  facts.level_step = levels.step;
+}
+
+}  // namespace
+
+StoredHeights read_stored_heights(const InputFile& file, const LoadOptions& options,
+                                  std::uint64_t memory_limit) {
+  const FileFormat format = recognise_format(file);
+  StoredHeights stored = format == FileFormat::esri_grid ? read_grid(file, options, memory_limit)
+                                                         : read_picture(file, format, options, memory_limit);
+  stored.facts.format = to_string(format);
+  drop_missing(file, options.no_data, stored);
+  return stored;
+}
+
+}  // namespace heightlight

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "files/esri_grid.h"
+#include "files/input_file.h"
+#include "files/tiff_facts.h"
+#include "heightlight/files.h"
+
+namespace heightlight {
+
+/// A file's samples on their way to heights.
+struct StoredHeights {
+  Image<double> values;  ///< NaN where missing
+  SourceFacts facts;
+  std::optional<EsriHeader> grid;  ///< of an Esri grid
+  std::optional<TiffFacts> tiff;   ///< of a TIFF
+  std::vector<Warning> warnings = {};
+};
+
+/// Reads them, and makes NaN of what is missing: what `options.no_data` or the file names, as the stored type
+/// sees it, transparent and infinite samples. Throws Error as load_heightmap does, UsageError for a part or
+/// channel that the file does not have.
+StoredHeights read_stored_heights(const InputFile& file, const LoadOptions& options,
+                                  std::uint64_t memory_limit);
+
+}  // namespace heightlight

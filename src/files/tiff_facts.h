@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "files/input_file.h"
+
+namespace heightlight {
+
+/// What the first directory of a TIFF says beside what OpenImageIO tells.
+struct TiffFacts {
+  bool white_is_zero = false;          ///< larger numbers are darker (PhotometricInterpretation 0)
+  bool is_cmyk_in_tiles = false;       ///< which ends the process within OpenImageIO 2.4
+  std::optional<std::string> no_data;  ///< GDAL's tag 42113, as text
+  /// Distance between samples in the unit of its coordinates (ModelPixelScaleTag, OGC GeoTIFF 7.1).
+  std::optional<std::array<double, 2>> pixel_scale;
+  bool in_degrees = false;      ///< GTModelTypeGeoKey says geographic coordinates
+  std::optional<double> west;   ///< of the outer edge of the leftmost samples (ModelTiepointTag)
+  std::optional<double> north;  ///< of the outer edge of the uppermost
+};
+
+/// Classic TIFF and BigTIFF, either byte order. Throws Error naming the file where its first directory cannot
+/// be read.
+TiffFacts read_tiff_facts(const InputFile& file);
+
+/// Inflates every block of a deflated TIFF to its end, where its checksum stands, which libtiff does not look
+/// at: a flipped bit would be read as other heights. Other compressions have no checksums, and are not
+/// looked at. Throws Error naming the file for a block that is damaged.
+void check_tiff_sums(const InputFile& file);
+
+}  // namespace heightlight
