@@ -87,6 +87,17 @@ void tell_new_warnings(const DatasetRun& run, const std::vector<Warning>& warnin
   }
 }
 
+/// Whether anything can be written into a folder; else what a run could not write, none can.
+bool can_write(const fs::path& folder) {
+  try {
+    StagedFile probe(folder / ".heightlight-probe");
+    write_bytes(probe.path(), "?");
+    return true;  // and goes away
+  } catch (const OutputError&) {
+    return false;
+  }
+}
+
 /// Why a run failed. Where results cannot be written, no run can do anything, and the job ends.
 std::string try_run(const DatasetRun& run, const std::vector<fs::path>& inputs, Told& told,
                     const Watch& watch) {
@@ -94,8 +105,9 @@ std::string try_run(const DatasetRun& run, const std::vector<fs::path>& inputs, 
     make_shape(run, inputs, told.made);
     tell_new_warnings(run, simulate_map(run.simulate, told.plots, watch).warnings, told.warnings);
     return "";
-  } catch (const OutputError&) {
-    throw;
+  } catch (const OutputError& error) {
+    if (!can_write(run.simulate.folder.parent_path())) throw;
+    return user_message(error);
   } catch (const Cancelled&) {
     throw;
   } catch (const std::bad_alloc&) {

@@ -34,12 +34,13 @@ Json describe_map(const JudgedMap& map, const std::filesystem::path& curves) {
 
 Json describe_family(const FittedFamily& fitted) {
   const FormFamily& family = *fitted.family;
+  const std::string start = is_published(family) ? "published" : "default";
   Json parameters = Json::array();
   for (std::size_t p = 0; p < family.parameters.size(); ++p) {
     const auto i = static_cast<Eigen::Index>(p);
     parameters.push_back({{"name", family.parameters[p]},
                           {"value", fitted.fit.parameters[i]},
-                          {"published", family.published[p]},
+                          {start, family.published[p]},
                           {"standard_error", std::sqrt(fitted.fit.covariance(i, i))},
                           {"low", fitted.intervals.low[i]},
                           {"high", fitted.intervals.high[i]}});
@@ -56,7 +57,7 @@ Json describe_family(const FittedFamily& fitted) {
       {"parameters", parameters},
       {"covariance", covariance},
       {"rms", fitted.fit.rms},
-      {"rms_as_published", fitted.published_rms},
+      {std::string("rms_as_") + start, fitted.published_rms},
       {"bootstrap", {{"drawn", fitted.intervals.unit}, {"draws", fitted.intervals.draws}, {"share", 0.95}}}};
 }
 

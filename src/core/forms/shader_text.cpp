@@ -1,5 +1,6 @@
 #include <array>
 #include <charconv>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -16,6 +17,11 @@ constexpr const char* kHead =
 // Feeding one where the other is wanted ruins the result.
 
 )";
+
+/// Of the reports' fits of F0, the shader's is the one that stays below 1.
+const std::string kFittedNotesHead =
+    "// Fitted: F0 with power 1, so that it is at most 1 (notes_direct_bounded in the report of a fit; its\n"
+    "// notes_direct has a power of its own, and may exceed 1), F1 as notes_first_bounce.\n";
 
 /// A form for three albedos at once.
 struct VectorForm {
@@ -104,7 +110,7 @@ std::string shader_text(ShaderLanguage language, const ShaderConstants& constant
   const std::string notes = kNotesText.shader;
   const std::string form = notes.substr(notes.find("\n\n") + 2);
   append(fill_in(notes, list_constants(kNotesConstants, NotesConstants{})));
-  append(fill_in(form, list_constants(kNotesConstants, constants.notes, "_fitted")));
+  append(kFittedNotesHead + fill_in(form, list_constants(kNotesConstants, constants.notes, "_fitted")));
   for (const FormText* one :
        {&kBouncedText, &kSeenFromSkyText, &kSeenFromMapText, &kSeenFromDeepText, &kSeenFromBlurText}) {
     append(fill_in(one->shader, seen));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "comparison/pareto_front.h"
 #include "files/output_file.h"
@@ -13,10 +14,20 @@ namespace {
 
 constexpr double kErrors[] = {0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001};
 
+/// A name as it is, whatever marks it has.
+std::string as_markdown(const std::string& name) {
+  std::string text;
+  for (const char c : name) {
+    if (std::string_view("\\`*_{}[]<>()#+-!|&~").find(c) != std::string_view::npos) text += '\\';
+    text += c;
+  }
+  return text;
+}
+
 void write_reference(std::FILE* file, const ReportInput& input) {
   const ComparisonReference& reference = input.reference;
   const Surface& surface = input.scene.surface;
-  fmt::print(file, "# Methods compared on {}\n\n", input.map_name);
+  fmt::print(file, "# Methods compared on {}\n\n", as_markdown(input.map_name));
   fmt::print(file, "{} × {} texels of {:g} × {:g}, relief {:g}, boundary {}.\n\n", surface.width(),
              surface.height(), surface.map.spacing.x, surface.map.spacing.y, relief(surface.map),
              to_string(surface.map.boundary));

@@ -140,6 +140,8 @@ const std::vector<FormFamily>& form_families() {
   return families;
 }
 
+bool is_published(const FormFamily& family) { return family.source != kSeenFromSkyText.source; }
+
 const std::vector<double>& target_albedos(FitTarget target) {
   static const std::vector<double> none{1.0};
   static const std::vector<double> appendix_b{0.1, 0.2, 0.3, 0.4, 0.5, 0.7, 0.9};

@@ -31,6 +31,9 @@ struct FormFamily {
   std::function<double(const Eigen::VectorXd& parameters, const ModelInputs&, double albedo)> evaluate = {};
 };
 
+/// Whether its constants stand in a paper; those of this project's own forms are defaults.
+bool is_published(const FormFamily& family);
+
 /// The inputs with what the family itself finds out about the map, given its parameters: t, for
 /// ExtraInput::deep_seen.
 ModelInputs tune_inputs(const FormFamily& family, const Eigen::VectorXd& parameters,
