@@ -44,13 +44,11 @@ bool names_other_map(const std::string& name) {
                                               "displacement", "bump",    "depth",     "elevation",
                                               "dem",          "dsm",     "dtm",       "terrain"};
   static const std::set<std::string> kOthers{
-      "color",    "colour",     "basecolor",  "base",      "albedo",      "diffuse",   "diff",
-      "col",      "normal",     "normals",    "nor",       "nrm",         "normalgl",  "normaldx",
-      "gl",       "dx",         "ao",         "occlusion", "ambient",     "rough",     "roughness",
-      "gloss",    "glossiness", "smoothness", "metal",     "metallic",    "metalness", "spec",
-      "specular", "opacity",    "alpha",      "mask",      "emission",    "emissive",  "arm",
-      "orm",      "preview",    "thumbnail",  "render",    "multibounce", "bent",      "cone",
-      "packed",   "curvature",  "cavity",     "sh",        "horizon"};
+      "color",     "colour",     "basecolor",   "albedo",     "diffuse",   "diff",     "normal",
+      "normals",   "nor",        "nrm",         "ao",         "occlusion", "rough",    "roughness",
+      "gloss",     "glossiness", "metal",       "smoothness", "metalness", "metallic", "spec",
+      "specular",  "opacity",    "emission",    "emissive",   "arm",       "orm",      "preview",
+      "thumbnail", "render",     "multibounce", "packed",     "curvature", "cavity"};
   bool other = false;
   for (const std::string& word : words_of(name)) {
     if (kHeights.contains(word)) return false;

@@ -2,6 +2,7 @@
 
 #include <zlib.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 
@@ -32,6 +33,29 @@ inline std::string deflated(const std::string& data) {
 }
 
 constexpr const char* kPngSignature = "\x89PNG\r\n\x1a\n";
+
+/// So many zero bytes, deflated piece by piece.
+inline std::string deflated_zeros(std::size_t count) {
+  z_stream state{};
+  deflateInit(&state, Z_DEFAULT_COMPRESSION);
+  std::string zeros(1 << 16, '\0');
+  std::string piece(1 << 16, '\0');
+  std::string out;
+  for (int result = Z_OK; result != Z_STREAM_END;) {
+    state.next_in = reinterpret_cast<Bytef*>(zeros.data());
+    const std::size_t taken = std::min(count, zeros.size());
+    state.avail_in = static_cast<uInt>(taken);
+    count -= taken;
+    do {
+      state.next_out = reinterpret_cast<Bytef*>(piece.data());
+      state.avail_out = static_cast<uInt>(piece.size());
+      result = deflate(&state, count == 0 ? Z_FINISH : Z_NO_FLUSH);
+      out.append(piece, 0, piece.size() - state.avail_out);
+    } while (state.avail_out == 0);
+  }
+  deflateEnd(&state);
+  return out;
+}
 
 /// Header of 8-bit samples: colour type 0 grey, 2 RGB, 4 grey and alpha.
 inline std::string png_header(std::uint32_t width, std::uint32_t height, int colour_type = 0) {

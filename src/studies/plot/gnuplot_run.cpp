@@ -158,6 +158,11 @@ std::string last_line(const std::string& text) {
   return text.substr(before == std::string::npos ? 0 : before + 1, end - before);
 }
 
+/// As the terminals svg and pngcairo begin.
+bool is_picture(const std::string& output) {
+  return output.starts_with("<?xml") || output.starts_with("\x89PNG");
+}
+
 }  // namespace
 
 std::string gnuplot_fault() {
@@ -190,7 +195,7 @@ GnuplotResult run_gnuplot(const std::function<void(gnuplotio::Gnuplot&)>& write_
   throw_if_interrupted();  // the signal may have reached gnuplot too
   GnuplotResult result{output.read_all(), messages.read_all()};
   if (process.status() != 0) throw gnuplot_error("which failed: " + last_line(result.messages));
-  if (result.output.empty()) throw gnuplot_error("which drew nothing: " + last_line(result.messages));
+  if (!is_picture(result.output)) throw gnuplot_error("which drew nothing: " + last_line(result.messages));
   return result;
 }
 
