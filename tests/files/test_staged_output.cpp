@@ -1,3 +1,6 @@
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
 
 #include "files/staged_output.h"
@@ -126,4 +129,57 @@ TEST_CASE("A staged file needs a folder, and never replaces a device", "[files]"
   const ScratchFolder scratch;
   CHECK_THROWS_WITH(StagedFile(scratch / "absent/map.exr"), Contains("absent/map.exr") && Contains("folder"));
   CHECK_THROWS_WITH(StagedFile("/dev/null"), Contains("/dev/null") && Contains("not a regular file"));
+}
+
+TEST_CASE("A folder of somebody's that is called like a staging folder is left alone", "[files]") {
+  const ScratchFolder scratch;
+  for (const char* name : {".heightlight-2025-11", ".heightlight-99999999-0"}) {
+    fs::create_directory(scratch / name);
+    write_text(scratch / name / "diary.txt", "mine");
+  }
+  {
+    StagedFolder out(scratch / "out", {}, {});
+    write_text(out.file("one.txt"), "1");
+    out.commit();
+  }
+  StagedFile file(scratch / "two.txt");
+  write_text(file.path(), "2");
+  file.commit();
+  CHECK(read_text(scratch / ".heightlight-2025-11" / "diary.txt") == "mine");
+  CHECK(read_text(scratch / ".heightlight-99999999-0" / "diary.txt") == "mine");
+}
+
+TEST_CASE("What a killed process left is tidied up", "[files]") {
+  const ScratchFolder scratch;
+  fs::path staging;
+  {
+    StagedFolder out(scratch / "out", {}, {});
+    write_text(out.file("one.txt"), "1");
+    for (const auto& entry : fs::directory_iterator(scratch.path())) staging = entry.path();
+    fs::copy(staging, scratch / "kept", fs::copy_options::recursive);
+  }
+  fs::rename(scratch / "kept", scratch / ".heightlight-99999999-0");
+  { StagedFolder out(scratch / "out", {}, {}); }
+  CHECK(scratch.entry_count() == 0);
+}
+
+TEST_CASE("Where staging cannot be opened, one try is enough and leaves nothing", "[files]") {
+  const ScratchFolder scratch;
+  rlimit whole{};
+  REQUIRE(getrlimit(RLIMIT_NOFILE, &whole) == 0);
+  // No descriptor is left, but folders can be made.
+  const int first_free = dup(STDERR_FILENO);
+  close(first_free);
+  const rlimit none{static_cast<rlim_t>(first_free), whole.rlim_max};
+  REQUIRE(setrlimit(RLIMIT_NOFILE, &none) == 0);
+  CHECK_THROWS_AS(StagedFolder(scratch / "out", {}, {}), OutputError);
+  REQUIRE(setrlimit(RLIMIT_NOFILE, &whole) == 0);
+  CHECK(scratch.entry_count() == 0);
+}
+
+TEST_CASE("A name that no file can have is refused before work is spent", "[files]") {
+  const ScratchFolder scratch;
+  CHECK_THROWS_AS(StagedFolder(scratch / "out", {}, {std::string(300, 'n')}), OutputError);
+  CHECK_THROWS_AS(StagedFile(scratch / std::string(300, 'n')), OutputError);
+  CHECK(scratch.entry_count() == 0);
 }

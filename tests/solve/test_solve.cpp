@@ -4,6 +4,7 @@
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <thread>
 
@@ -45,6 +46,26 @@ Request whole_request() {
 }
 
 }  // namespace
+
+TEST_CASE("a solve that did not converge is told", "[solve]") {
+  Evidence evidence;
+  CHECK(find_faults(evidence).empty());
+  evidence.solver_residual = 1e-8;
+  CHECK(find_faults(evidence).empty());
+  evidence.solver_iterations = 2000;
+  for (const double residual : {1e-3, std::numeric_limits<double>::quiet_NaN()}) {
+    evidence.solver_residual = residual;
+    REQUIRE(find_faults(evidence).size() == 1);
+    CHECK(find_faults(evidence)[0].find("did not converge: after 2000 steps") != std::string::npos);
+  }
+}
+
+TEST_CASE("a plan that cannot be walked is refused before anything is found", "[solve]") {
+  Request request = coarse_request();
+  request.wanted.sky = true;
+  request.accuracy.plan = HorizonPlan{.sky = {.walk = {.azimuths = 16, .fineness = 0}}};
+  CHECK_THROWS_AS(solve(make_surface("brick", 16, 0.1F), request), UsageError);
+}
 
 TEST_CASE("only what is asked for is found", "[solve]") {
   const Surface surface = make_surface("brick", 64, 0.1F);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "base/hash.h"
@@ -37,6 +38,77 @@ TexelVector smooth_field(const Surface& surface) {
     }
   }
   return x;
+}
+
+TEST_CASE("walks find about as much surface as their sky leaves, the finer the nearer",
+          "[transport][horizon]") {
+  // What rises in small steps is left out, never counted twice or against: shares are from 0 to 1.
+  const Surface surface = build_surface(make_rough_map(70, 66, Boundary::tile, 2, 0.1, 2));
+  HorizonPlan plan = cheap_plan();
+  plan.gather.first_bounce_azimuths = 64;
+  double before = 1;
+  for (const int fineness : {4, 8, 16, 32}) {
+    plan.gather.walk.fineness = fineness;
+    plan.sky.walk = {.azimuths = 64, .fineness = fineness, .peak_share = 0.3F};
+    const auto transport = build_horizon_transport(surface, plan);
+    for (const double share : transport->surface_share()) REQUIRE((share >= 0 && share < 1.001));
+    const RowSumError error = row_sum_error(*transport);
+    CHECK(error.rms > 1e-6);  // unlike a gather of ones, it can fail
+    CHECK(error.largest >= error.rms);
+    CHECK(error.rms < before);
+    before = error.rms;
+  }
+  CHECK(before < 0.02);
+}
+
+TEST_CASE("what receivers see of a field lies between its lowest and its highest", "[transport][horizon]") {
+  // A rise that is left out must not come back with a negative weight.
+  const double relief = GENERATE(0.05, 0.5, 5.0);
+  const Surface surface = build_surface(make_rough_map(67, 45, Boundary::tile, relief, 0.2, 7));
+  const auto transport = build_horizon_transport(surface, cheap_plan());
+  TexelVector spiky(surface.map.height.size());
+  for (std::size_t i = 0; i < spiky.size(); ++i) spiky[i] = unit_real(scramble(i)) < 0.1 ? 1 : 0;
+  const TexelVector gathered = transport->gather(spiky);
+  for (std::size_t i = 0; i < gathered.size(); ++i)
+    REQUIRE((gathered[i] >= 0 && gathered[i] <= 1 - transport->direct[i] + 1e-6));
+}
+
+TEST_CASE("two threads may gather at once", "[transport][horizon]") {
+  const Surface surface = build_surface(make_rough_map(70, 66, Boundary::tile, 0.5, 0.1, 3));
+  const auto transport = build_horizon_transport(surface, cheap_plan());
+  const TexelVector x = smooth_field(surface);
+  const TexelVector ones(x.size(), 1);
+  const TexelVector alone = transport->gather(x);
+  TexelVector beside;
+  TexelVector other;
+  std::thread one([&] { beside = transport->gather(x); });
+  std::thread two([&] { other = transport->gather(ones); });
+  one.join();
+  two.join();
+  CHECK(beside == alone);
+  CHECK(other == transport->gather(ones));
+}
+
+TEST_CASE("plans that cannot be walked are refused", "[transport][horizon]") {
+  const Surface surface = build_surface(make_rough_map(9, 9, Boundary::tile, 0.5, 0, 3));
+  std::vector<HorizonPlan> bad(8, cheap_plan());
+  bad[0].sky.walk.fineness = 0;
+  bad[1].gather.walk.fineness = -3;
+  bad[2].sky.walk.azimuths = 7;
+  bad[3].gather.walk.azimuths = 65536;
+  bad[4].gather.first_bounce_azimuths = 8192;
+  bad[5].sky = {.walk = {.azimuths = 18}, .full_from = 0.3F};
+  bad[6].sky.walk.peak_share = 2;
+  bad[7].gather.walk.fineness = 1000;
+  for (const HorizonPlan& plan : bad) CHECK_THROWS_AS(build_horizon_transport(surface, plan), UsageError);
+  CHECK_NOTHROW(build_horizon_transport(surface, cheap_plan()));
+}
+
+TEST_CASE("an error that nothing reaches is planned for all the same", "[transport][horizon]") {
+  const Surface surface = build_surface(make_rough_map(24, 24, Boundary::tile, 0.5, 0, 3));
+  const PlannedTransport planned = plan_horizon_transport(surface, {.error = 1e-300});
+  CHECK(planned.plan.sky.walk.azimuths >= 4);
+  CHECK_NOTHROW(check_horizon_plan(planned.plan));
 }
 
 TEST_CASE("sky + F 1 = 1 in every row of horizon walks", "[transport][horizon]") {

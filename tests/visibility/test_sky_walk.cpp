@@ -187,6 +187,17 @@ TEST_CASE("the walk finds an open tilted plane open, also below the horizontal",
   }
 }
 
+TEST_CASE("few azimuths find a tilted plane as open as many do", "[visibility][walk]") {
+  // Where S(m₀) would not sum up to K, it is summed: what is left is 2 e^−10, and rounding.
+  const double steepness = GENERATE(0.3, 0.7, 1.0, 1.9);
+  for (const int azimuths : {4, 6, 8, 12, 16, 64}) {
+    CAPTURE(steepness, azimuths);
+    const Shortfall shortfall =
+        plane_shortfall(steepness, 35, 37, {.azimuths = azimuths, .fineness = 48, .peak_share = 0.3F});
+    CHECK(shortfall.sky < 1e-4);
+  }
+}
+
 double largest_difference(const Map& a, const Map& b) {
   double worst = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
