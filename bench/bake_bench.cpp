@@ -49,7 +49,8 @@ void measure(const Options& options, const std::filesystem::path& folder, const 
   const Stopwatch watch;
   LoadedHeightmap loaded = load_heightmap(path, {}, options.memory);
   const double load = watch.elapsed().wall;
-  bake_material(std::move(loaded), {path}, bake, folder / "out", "m");
+  bake_material(std::move(loaded), bake,
+                {.source = path, .inputs = {path}, .folder = folder / "out", .name = "m"});
   const Cost all = watch.elapsed();
   const std::uint64_t peak = peak_memory();
   const nlohmann::json sidecar = nlohmann::json::parse(std::ifstream(folder / "out" / "m_bake.json"));

@@ -50,9 +50,10 @@ struct SourceFacts {
   double level_step = 0;  ///< median distance between neighbouring levels; 0 where they are not few
   double lowest = 0;      ///< of the samples present, as stored in the file
   double highest = 0;
-  std::optional<double> declared_no_data;  ///< from the header of an Esri grid, or GDAL's tag in a TIFF;
-                                           ///< -9999 in an Esri grid that names none
-  std::string sha256;                      ///< of the file's bytes, hexadecimal
+  /// From the header of an Esri grid, or GDAL's tag in a TIFF; −9999 in a grid that names none.
+  std::optional<double> declared_no_data;
+  bool no_data_assumed = false;  ///< that −9999: the file itself says nothing
+  std::string sha256;            ///< of the file's bytes, hexadecimal
 };
 
 /// What a user should know of a file before believing what is made of it: one line, and a quantity that would
@@ -107,7 +108,7 @@ void write_curves_csv(const std::filesystem::path& path, const std::vector<Bounc
 /// what the means leave of 1. Throws Error naming the file, and the line, for a column that is missing, a
 /// number that is none or not finite, a kind of AO that is unknown or comes again after the other, bins out
 /// of order or without texels, bounces that don't follow on each other or of which bins have unlike numbers,
-/// and for the curves of several runs.
+/// and for the curves of several runs. Takes memory as the file's size asks for; read_run_curves bounds it.
 std::vector<BounceCurves> read_curves_csv(const std::filesystem::path& path);
 
 /// The curves of one run in a table of many.
@@ -118,8 +119,8 @@ struct RunCurves {
 };
 
 /// Reads `dataset.csv`, the curves of many runs below each other, or `curves.csv`. Throws Error as
-/// read_curves_csv does, for a run that comes again after another, and naming the memory that a file larger
-/// than `memory_limit` bytes may take.
+/// read_curves_csv does, for a run that comes again after another, and, naming it, where `memory_limit` bytes
+/// may not hold what so large a file becomes.
 std::vector<RunCurves> read_run_curves(const std::filesystem::path& path, std::uint64_t memory_limit);
 
 }  // namespace heightlight

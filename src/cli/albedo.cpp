@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <limits>
 #include <optional>
+#include <system_error>
 #include <type_traits>
 
+#include "files/image_file.h"
 #include "files/image_read.h"
 #include "files/input_file.h"
 #include "heightlight/error.h"
@@ -75,7 +78,7 @@ TexelVector decode(const StoredImage& image, std::size_t channel) {
       image.samples);
 }
 
-Albedo read_albedo_file(const std::string& path, const Heightmap& map, std::uint64_t memory_limit) {
+ReadAlbedo read_albedo_file(const std::string& path, const Heightmap& map, std::uint64_t memory_limit) {
   const InputFile file(path);
   const FileFormat format = recognise_format(file);
   if (format == FileFormat::esri_grid) throw file.error("an Esri grid holds no albedo; use an image");
@@ -98,7 +101,9 @@ Albedo read_albedo_file(const std::string& path, const Heightmap& map, std::uint
   const bool grey = std::all_of(albedo.varying.begin(), albedo.varying.end(),
                                 [&](const TexelVector& values) { return values == albedo.varying[0]; });
   if (grey) albedo.varying.resize(1);
-  return albedo;
+  ReadAlbedo read{.albedo = std::move(albedo), .sha256 = sha256_of_file(file)};
+  file.check_unchanged();
+  return read;
 }
 
 }  // namespace
@@ -107,16 +112,20 @@ void check_albedo(const std::string& text) {
   if (auto colour = parse_picture_colour(text)) return;
   if (auto constants = parse_constants(text)) {
     check_constants(text, std::move(*constants));
-  } else {
-    InputFile(std::filesystem::path(text));
+    return;
   }
+  std::error_code ignored;
+  const bool is_number = text.find_first_not_of("0123456789.,+-eE") == std::string::npos;
+  if ((text.starts_with('#') || is_number) && !std::filesystem::exists(text, ignored))
+    throw UsageError("albedo", text, "must be a number, R,G,B, #RRGGBB, or the name of an image");
+  InputFile(std::filesystem::path(text));  // throws where there is none
 }
 
-Albedo read_albedo(const std::string& text, const Heightmap& map, std::uint64_t memory_limit) {
+ReadAlbedo read_albedo(const std::string& text, const Heightmap& map, std::uint64_t memory_limit) {
   if (auto colour = parse_picture_colour(text))
-    return {.constant = check_constants(text, std::move(*colour))};
+    return {.albedo = {.constant = check_constants(text, std::move(*colour))}};
   if (auto constants = parse_constants(text))
-    return {.constant = check_constants(text, std::move(*constants))};
+    return {.albedo = {.constant = check_constants(text, std::move(*constants))}};
   return read_albedo_file(text, map, memory_limit);
 }
 

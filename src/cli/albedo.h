@@ -9,11 +9,16 @@
 
 namespace heightlight {
 
+struct ReadAlbedo {
+  Albedo albedo;
+  std::string sha256 = {};  ///< of the file as it was read; empty where there was none
+};
+
 /// Reads `--albedo R`, `--albedo R,G,B`, `--albedo '#RRGGBB'` (sRGB) or `--albedo FILE`. A file has the map's
 /// size; integer samples are decoded from sRGB, float samples are linear already; equal channels become one.
 /// Throws UsageError for values outside [0, 1] or something that is neither, Error naming the file for one of
-/// another size or with samples outside [0, 1] or NaN.
-Albedo read_albedo(const std::string& text, const Heightmap& map, std::uint64_t memory_limit);
+/// another size, with samples outside [0, 1] or NaN, or written to while it was read.
+ReadAlbedo read_albedo(const std::string& text, const Heightmap& map, std::uint64_t memory_limit);
 
 /// What of that can be told without a map. Throws UsageError for values outside [0, 1] or too few or many of
 /// them, Error for a file that is not there.

@@ -1,10 +1,7 @@
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <cstdio>
-#include <map>
 #include <memory>
-#include <system_error>
 
 #include "base/progress.h"
 #include "cli/albedo.h"
@@ -12,6 +9,7 @@
 #include "cli/commands.h"
 #include "cli/map_options.h"
 #include "cli/name_errors.h"
+#include "cli/tell.h"
 #include "cli/terminal_watch.h"
 #include "cli/user_message.h"
 #include "cli/warnings.h"
@@ -22,42 +20,42 @@
 namespace heightlight {
 namespace {
 
-/// All files that a batch reads. An albedo that is a number names no file.
-std::vector<std::filesystem::path> input_files(const BakeCommand& command, const BakeInputs& listed) {
-  std::vector<std::filesystem::path> files = listed.left_out;  // not read, but somebody's all the same
+/// All files that a batch reads, and those of its folders that it leaves out. An albedo that is a number
+/// names no file.
+InputGuard guard_inputs(const BakeCommand& command, const BakeInputs& listed) {
+  std::vector<std::filesystem::path> files = listed.left_out;
   files.emplace_back(command.albedo);
   for (const BakeInput& input : listed.inputs) files.push_back(input.path);
   return files;
 }
 
 /// Before anything is baked: no map's files replace any map.
-void check_batch(const BakeCommand& command, const BakeInputs& listed) {
-  const InputGuard guard(input_files(command, listed));
+void check_batch(const BakeCommand& command, const BakeInputs& listed, const InputGuard& guard) {
   for (const BakeInput& input : listed.inputs) {
     for (const std::string& name : baked_files(input.name, command.options))
       guard.check(command.folder / name);
   }
 }
 
-/// Of one map. Returns its warnings.
-std::vector<Warning> bake_file(const BakeCommand& command, const BakeInput& input, bool quiet) {
+BakeOutcome bake_file(const BakeCommand& command, const BakeInput& input, const InputGuard& guard,
+                      bool quiet) {
   BakeOptions options = command.options;
   options.watch = terminal_watch(quiet);
   LoadedHeightmap loaded = load_heightmap(input.path, command.load, command.run.memory);
-  options.albedo = read_albedo(command.albedo, loaded.map, command.run.memory);
+  ReadAlbedo albedo = read_albedo(command.albedo, loaded.map, command.run.memory);
+  options.albedo = std::move(albedo.albedo);
   if (!command.max_distance.empty()) {
     const Falloff falloff = command.falloff == "linear" ? Falloff::linear
                             : command.falloff == "sqrt" ? Falloff::root
                                                         : Falloff::none;
-    options.reach = Reach{
-        .distance = parse_distance(command.max_distance, loaded.map.spacing.x * loaded.map.height.width),
-        .falloff = falloff};
+    const double width = loaded.map.spacing.x * loaded.map.height.width;
+    options.reach = Reach{.distance = parse_distance(command.max_distance, width), .falloff = falloff};
   }
-  options.request = request_of(command, input);
-  const std::vector<std::filesystem::path> inputs{input.path, command.albedo};  // a number names no file
-  return name_errors(input.path, [&] {
-    return bake_material(std::move(loaded), inputs, options, command.folder, input.name);
-  });
+  options.surface = surface_of(command, loaded.facts.sha256);
+  options.request = request_of(command, loaded.facts.sha256, albedo.sha256);
+  const BakeTarget target{
+      .source = input.path, .inputs = guard, .folder = command.folder, .name = input.name};
+  return name_errors(input.path, [&] { return bake_material(std::move(loaded), options, target); });
 }
 
 /// How a batch went.
@@ -67,14 +65,16 @@ struct Tally {
   std::vector<std::string> faults;  ///< one line each
 };
 
-void bake_one(const BakeCommand& command, const BakeInput& input, bool only_one, Tally& tally) {
+void bake_one(const BakeCommand& command, const BakeInput& input, const InputGuard& guard, bool only_one,
+              Tally& tally) {
   if (command.skip_existing && is_baked(command, input)) {
     ++tally.skipped;
     return;
   }
-  const std::vector<Warning> warnings = bake_file(command, input, command.run.quiet || !only_one);
+  const BakeOutcome outcome = bake_file(command, input, guard, command.run.quiet || !only_one);
   ++tally.baked;
-  tell_warnings(input.path, warnings);
+  tell_warnings(input.path, outcome.warnings);
+  if (!command.run.quiet) report_removed(outcome.removed);
 }
 
 void report(const BakeCommand& command, const Tally& tally) {
@@ -86,11 +86,11 @@ void report(const BakeCommand& command, const Tally& tally) {
 /// Files of folders that by their names are no heights.
 void tell_left_out(const BakeInputs& listed) {
   if (listed.left_out.empty()) return;
-  fmt::print(
-      stderr,
-      "heightlight: {} files are by their names no heights, and left out ({}{}); choose with --pattern\n",
-      listed.left_out.size(), printable(listed.left_out.front().filename()),
-      listed.left_out.size() > 1 ? ", …" : "");
+  const bool one = listed.left_out.size() == 1;
+  tell(std::to_string(listed.left_out.size()) +
+       (one ? " file is no height by its name: " : " files are no heights by their names: ") +
+       listed.left_out.front().filename().string() + (one ? "" : ", …") +
+       "; left out, unless --pattern chooses it");
 }
 
 void bake(BakeCommand& command) {
@@ -99,7 +99,8 @@ void bake(BakeCommand& command) {
   const BakeInputs listed = list_bake_inputs(command.inputs, command.pattern);
   const std::vector<BakeInput>& inputs = listed.inputs;
   tell_left_out(listed);
-  check_batch(command, listed);
+  const InputGuard guard = guard_inputs(command, listed);
+  check_batch(command, listed, guard);
   const bool only_one = inputs.size() == 1;
   Tally tally;
   {
@@ -107,22 +108,20 @@ void bake(BakeCommand& command) {
     Progress progress("bake", static_cast<std::int64_t>(inputs.size()), watch);
     for (const BakeInput& input : inputs) {
       try {
-        bake_one(command, input, only_one, tally);
+        bake_one(command, input, guard, only_one, tally);
       } catch (const Cancelled&) {
         throw;
-      } catch (const Error& error) {
+      } catch (const std::exception& error) {
         if (only_one) throw;
-        tally.faults.push_back(user_message(error));
-      } catch (const std::exception& error) {  // out of memory, or a library's own
-        if (only_one) throw;
-        tally.faults.push_back(input.path.string() + ": " + error.what());
+        const bool names_map = dynamic_cast<const Error*>(&error);
+        tally.faults.push_back((names_map ? "" : input.path.string() + ": ") + user_message(error));
       }
       progress.add(1);
     }
   }
   report(command, tally);
   if (tally.faults.empty()) return;
-  for (const std::string& fault : tally.faults) fmt::print(stderr, "heightlight: {}\n", printable(fault));
+  for (const std::string& fault : tally.faults) tell(fault);
   throw Error(std::to_string(tally.faults.size()) + " of " + std::to_string(inputs.size()) +
               " maps could not be baked");
 }

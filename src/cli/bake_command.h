@@ -33,10 +33,16 @@ void parse_bake_options(BakeCommand& command);
 /// "0.05", or "5%" of a width: a length. Throws UsageError.
 double parse_distance(const std::string& text, double width);
 
-/// All that a map's files depend on, as one text. Throws Error for an input that cannot be read.
-std::string request_of(const BakeCommand& command, const BakeInput& input);
+/// All that a map's files depend on, as one text: with the checksums of the heightmap and of the albedo,
+/// where that is a file, as they were read.
+std::string request_of(const BakeCommand& command, const std::string& map_sha256,
+                       const std::string& albedo_sha256);
 
-/// Whether the files are there as they were written, of this heightmap, and as is asked for now.
+/// Of that, what the heights depend on.
+std::string surface_of(const BakeCommand& command, const std::string& map_sha256);
+
+/// Whether the files are there as they were written, of this heightmap, and as is asked for now. Throws Error
+/// for an input that cannot be read.
 bool is_baked(const BakeCommand& command, const BakeInput& input);
 
 }  // namespace heightlight

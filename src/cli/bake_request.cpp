@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "bake/baked_map.h"
 #include "cli/bake_command.h"
 #include "cli/request.h"
 #include "files/file_record.h"
@@ -10,37 +12,58 @@
 
 namespace heightlight {
 
-std::string request_of(const BakeCommand& command, const BakeInput& input) {
+std::string request_of(const BakeCommand& command, const std::string& map_sha256,
+                       const std::string& albedo_sha256) {
   const BakeOptions& options = command.options;
-  std::error_code ignored;
-  const bool albedo_file = std::filesystem::is_regular_file(command.albedo, ignored);
+  return request_key({{"version", HEIGHTLIGHT_VERSION},
+                      {"map", map_sha256},
+                      {"load", describe_load_options(command.load)},
+                      {"maps", command.maps},
+                      {"pack", command.packed},
+                      {"albedo", albedo_sha256.empty() ? command.albedo : albedo_sha256},
+                      {"max_distance", command.max_distance},
+                      {"falloff", command.falloff},
+                      {"uniform_ao", options.uniform_ao},
+                      {"depth", static_cast<int>(options.depth)},
+                      {"format", static_cast<int>(options.format)},
+                      {"y_down", options.y_down},
+                      {"bent_length", options.bent_length},
+                      {"dither", options.dither},
+                      {"horizon_azimuths", options.horizon_azimuths},
+                      {"error", options.error},
+                      {"azimuths", options.azimuths},
+                      {"seed", options.seed}});
+}
+
+std::string surface_of(const BakeCommand& command, const std::string& map_sha256) {
   return request_key(
-      {{"version", HEIGHTLIGHT_VERSION},
-       {"map", sha256_of_file(input.path)},
-       {"load", describe_load_options(command.load)},
-       {"maps", command.maps},
-       {"pack", command.packed},
-       {"albedo", albedo_file ? sha256_of_file(std::filesystem::path(command.albedo)) : command.albedo},
-       {"max_distance", command.max_distance},
-       {"falloff", command.falloff},
-       {"uniform_ao", options.uniform_ao},
-       {"depth", static_cast<int>(options.depth)},
-       {"format", static_cast<int>(options.format)},
-       {"y_down", options.y_down},
-       {"bent_length", options.bent_length},
-       {"dither", options.dither},
-       {"horizon_azimuths", options.horizon_azimuths},
-       {"error", options.error},
-       {"azimuths", options.azimuths},
-       {"seed", options.seed}});
+      {{"version", HEIGHTLIGHT_VERSION}, {"map", map_sha256}, {"load", describe_load_options(command.load)}});
 }
 
 bool is_baked(const BakeCommand& command, const BakeInput& input) {
-  const std::filesystem::path sidecar = command.folder / baked_files(input.name, command.options).back();
-  const auto files = read_file_records(sidecar);
-  if (!files || read_json(sidecar).value("request", "") != request_of(command, input)) return false;
-  return std::all_of(files->begin(), files->end(),
-                     [&](const FileRecord& file) { return is_as_recorded(command.folder, file); });
+  const std::vector<std::string> names = baked_files(input.name, command.options);
+  const std::filesystem::path sidecar = command.folder / names.back();
+  std::error_code ignored;
+  const bool all_there = std::all_of(names.begin(), names.end(), [&](const std::string& name) {
+    return std::filesystem::is_regular_file(command.folder / name, ignored);
+  });
+  if (!all_there) return false;
+  const bool albedo_file = std::filesystem::is_regular_file(command.albedo, ignored);
+  const std::string wanted =
+      request_of(command, sha256_of_file(input.path),
+                 albedo_file ? sha256_of_file(std::filesystem::path(command.albedo)) : "");
+  try {
+    const nlohmann::json json = read_json(sidecar);
+    const auto files = parse_file_records(json);
+    if (!files || !json.contains("request") || json["request"] != wanted) return false;
+    if (files->size() < texture_suffixes(command.options).size()) return false;
+    return std::all_of(files->begin(), files->end(),
+                       [&](const FileRecord& file) { return is_as_recorded(command.folder, file); });
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const Error&) {
+    return false;  // damaged from outside: baked again
+  }
 }
 
 }  // namespace heightlight

@@ -10,14 +10,13 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
-#include <new>
 #include <string>
 
 #include "cli/commands.h"
 #include "cli/plots.h"
+#include "cli/tell.h"
 #include "cli/user_message.h"
 #include "files/interrupt.h"
-#include "files/printable.h"
 #include "files/staging_folder.h"
 #include "heightlight/error.h"
 #include "heightlight/version.h"
@@ -26,7 +25,7 @@ namespace heightlight {
 namespace {
 
 int fail(int exit_code, const std::string& message) {
-  std::fputs(("heightlight: " + printable(message) + "\n").c_str(), stderr);
+  tell(message);
   return exit_code;
 }
 
@@ -55,21 +54,23 @@ void refuse_empty_arguments(int count, const char* const* arguments) {
     const bool assigned = argument.starts_with("--") && argument.ends_with('=');
     if (!argument.empty() && !assigned) continue;
     const std::string before = assigned ? argument.substr(0, argument.size() - 1) : arguments[i - 1];
-    const bool of_option = before.starts_with('-') && i > 1;
-    throw UsageError(of_option || assigned ? before + ": its value is empty (an unset variable?)"
-                                           : "an argument is empty (an unset variable?)");
+    throw UsageError("the argument after " + (i > 1 || assigned ? before : "the name of the program") +
+                     " is empty (an unset variable?)");
   }
 }
 
 /// CLI11 would say that there is none.
 void refuse_unknown_command(const CLI::App& app, int count, const char* const* arguments) {
-  if (count < 2 || arguments[1][0] == '-') return;
+  if (count < 2) return;
+  const std::string first = arguments[1];
+  if (first == "-h" || first == "--help" || first == "--version") return;
+  if (first.starts_with('-')) throw UsageError("there is no option " + first + " before a command");
   std::string known;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
-    if (command->get_name() == arguments[1]) return;
+    if (command->get_name() == first) return;
     known += (known.empty() ? "" : ", ") + command->get_name();
   }
-  throw UsageError("there is no command '" + std::string(arguments[1]) + "'; known are " + known);
+  throw UsageError("there is no command '" + first + "'; known are " + known);
 }
 
 // CLI11 tells usage errors from requests for help by the exit code that it would use.
@@ -94,12 +95,9 @@ int run(CLI::App& app, int argument_count, const char* const* arguments) {
     return end_interrupted(noted_signal());
   } catch (const UsageError& error) {
     return fail(2, user_message(error));
-  } catch (const Error& error) {
-    return fail(1, user_message(error));
-  } catch (const std::bad_alloc&) {
-    return fail(1, "out of memory");
   } catch (const std::exception& error) {
-    return fail(1, error.what());
+    if (std::ferror(stdout) != 0) return 1;  // which is told where all that was printed is checked
+    return fail(1, user_message(error));
   }
 }
 

@@ -130,7 +130,7 @@ void compare_on(const CompareOptions& options, const Surface& surface, LoadedHei
                 StagedFolder& folder, Plots& plots) {
   const Watch terminal = terminal_watch(options.run.quiet);
   const std::vector<ComparedAlbedo> albedos =
-      compared_albedos(read_albedo(options.albedo, surface.map, options.run.memory), surface);
+      compared_albedos(read_albedo(options.albedo, surface.map, options.run.memory).albedo, surface);
   const std::uint64_t memory = memory_for_methods(options, surface, albedos);
   const Stopwatch watch;
   const DepthBuffer depth = make_depth_buffer(surface);
@@ -144,24 +144,26 @@ void compare_on(const CompareOptions& options, const Surface& surface, LoadedHei
       .surface = surface, .depth = depth, .albedos = albedos, .memory = memory, .seed = options.run.seed};
   const Comparison comparison = compare_methods(scene, reference, make_contenders(scene), terminal);
 
+  for (const std::string& fault : find_faults(reference.total_evidence))
+    loaded.warnings.push_back({"the reference: " + fault});
   const std::string name = printable(options.map.path.filename());
   write_comparison_csv(folder.file("compare.csv"), comparison.rows);
   write_report(folder.file("report.md"), {.map_name = name,
                                           .scene = scene,
                                           .reference = reference,
                                           .comparison = comparison,
-                                          .depth_cost = depth_cost});
+                                          .depth_cost = depth_cost,
+                                          .warnings = loaded.warnings});
   plots.draw(folder, {"pareto.svg", "pareto.png"}, [&](const auto& paths) {
     plot_pareto(paths[0], paths[1], comparison.rows, {kSkyQuantity, total_quantity(albedos.back())}, name);
   });
   write_error_pictures(folder, comparison.shown, name, plots);
-  for (const std::string& fault : find_faults(reference.total_evidence))
-    loaded.warnings.push_back({"the reference: " + fault});
   const std::vector<FileRecord> files = folder.written();
   write_bytes(folder.file("compare.json"), evidence_json(options, surface, loaded, reference, files));
-  folder.commit();
+  const std::vector<std::string> removed = folder.commit();
   tell_warnings(options.map.path, loaded.warnings);
   if (options.run.quiet) return;
+  report_removed(removed);
   fmt::print("{}: {} lines in {}\n", printable(options.map.path), comparison.rows.size(),
              printable(options.folder / "compare.csv"));
 }
@@ -169,7 +171,8 @@ void compare_on(const CompareOptions& options, const Surface& surface, LoadedHei
 void compare(CompareOptions& options) {
   apply_run_options(options.run);
   check_azimuths(options.azimuths);
-  StagedFolder folder(options.folder, {options.map.path, options.albedo}, result_names(), "compare.json");
+  StagedFolder folder(options.folder, {options.map.path, options.albedo}, result_names(),
+                      {.file = "compare.json", .prefix = "error_"});
   Plots plots;
   LoadedHeightmap loaded = load_heightmap(options.map.path, options.map.load, options.run.memory);
   const Surface surface = build_surface(std::move(loaded.map));

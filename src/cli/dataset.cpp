@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
-#include <new>
 #include <set>
 #include <system_error>
 
@@ -13,6 +12,7 @@
 #include "cli/dataset_runs.h"
 #include "cli/dataset_tables.h"
 #include "cli/manifest.h"
+#include "cli/tell.h"
 #include "cli/terminal_watch.h"
 #include "cli/user_message.h"
 #include "cli/warnings.h"
@@ -72,11 +72,11 @@ void make_shape(const DatasetRun& run, const std::vector<fs::path>& inputs,
   made.insert(&map);
 }
 
-/// What the runs of a job share: shapes that were made, warnings that were told.
-struct Told {
+/// What the runs of a job share: its plots, shapes that were made, warnings that were told.
+struct JobState {
   Plots& plots;
   std::set<const ManifestMap*> made = {};
-  std::set<std::string> warnings = {};
+  std::set<std::string> told = {};
 };
 
 /// Of a map's many runs, each warning is told once; the summary of each has all of its own.
@@ -87,53 +87,45 @@ void tell_new_warnings(const DatasetRun& run, const std::vector<Warning>& warnin
   }
 }
 
-/// Whether anything can be written into a folder; else what a run could not write, none can.
-bool can_write(const fs::path& folder) {
-  try {
-    StagedFile probe(folder / ".heightlight-probe");
-    write_bytes(probe.path(), "?");
-    return true;  // and goes away
-  } catch (const OutputError&) {
-    return false;
-  }
+/// Whether something stands where the run's folder belongs. Then it fails alone; what else a run cannot
+/// write, none can.
+bool is_in_the_way(const fs::path& folder) {
+  std::error_code ignored;
+  return fs::exists(fs::symlink_status(folder, ignored)) && !fs::is_directory(folder, ignored);
 }
 
 /// Why a run failed. Where results cannot be written, no run can do anything, and the job ends.
-std::string try_run(const DatasetRun& run, const std::vector<fs::path>& inputs, Told& told,
+std::string try_run(const DatasetRun& run, const std::vector<fs::path>& inputs, JobState& state,
                     const Watch& watch) {
   try {
-    make_shape(run, inputs, told.made);
-    tell_new_warnings(run, simulate_map(run.simulate, told.plots, watch).warnings, told.warnings);
+    make_shape(run, inputs, state.made);
+    tell_new_warnings(run, simulate_map(run.simulate, state.plots, watch).warnings, state.told);
     return "";
   } catch (const OutputError& error) {
-    if (!can_write(run.simulate.folder.parent_path())) throw;
+    if (!is_in_the_way(run.simulate.folder)) throw;
     return user_message(error);
   } catch (const Cancelled&) {
     throw;
-  } catch (const std::bad_alloc&) {
-    return "out of memory";
-  } catch (const Error& error) {
+  } catch (const std::exception& error) {
     return user_message(error);
   }
 }
 
-void tell(const DatasetRun& run) {
-  fmt::print(stderr, "heightlight: {}: {}\n", printable(run.name), printable(run.fault));
-}
+void tell_fault(const DatasetRun& run) { tell(run.name + ": " + run.fault); }
 
 /// Does what is to be done, in the manifest's order.
 void do_runs(const std::vector<DatasetRun*>& runs, const std::vector<fs::path>& inputs, Plots& plots,
              bool quiet) {
   const Watch jobs = terminal_watch(quiet);
   Progress progress("dataset", static_cast<std::int64_t>(runs.size()), jobs);
-  Told told{.plots = plots};
+  JobState state{.plots = plots};
   for (std::size_t i = 0; i < runs.size(); ++i) {
     DatasetRun& run = *runs[i];
     const Watch watch = terminal_watch(quiet, fmt::format("run {} of {}: ", i + 1, runs.size()));
     Stopwatch lap;
-    run.fault = try_run(run, inputs, told, watch);
+    run.fault = try_run(run, inputs, state, watch);
     if (!run.fault.empty()) {
-      tell(run);
+      tell_fault(run);
     } else if (!quiet) {
       fmt::print("{}: {:.1f} s\n", printable(run.name), lap.lap());
       std::fflush(stdout);
@@ -162,11 +154,12 @@ void make_dataset(DatasetOptions& options) {
   make_folder(options.folder);
   const FolderLock lock(options.folder);
   std::vector<DatasetRun> runs = list_runs(manifest, options.folder, options.run);
+  for (DatasetRun& run : runs) run.simulate.more_inputs = inputs;
   Plots plots;
   std::vector<DatasetRun*> to_do;
   for (DatasetRun& run : runs) {
     if (!run.fault.empty()) {
-      tell(run);
+      tell_fault(run);
     } else if (!is_done(run, plots.possible())) {
       to_do.push_back(&run);
     }

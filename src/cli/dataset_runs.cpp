@@ -4,10 +4,13 @@
 #include <nlohmann/json.hpp>
 
 #include "base/digits.h"
+#include "cli/dataset_tables.h"
 #include "cli/request.h"
 #include "cli/user_message.h"
 #include "files/file_record.h"
 #include "files/image_file.h"
+#include "files/json_file.h"
+#include "files/saved_run.h"
 #include "heightlight/version.h"
 
 namespace heightlight {
@@ -79,13 +82,14 @@ void complete(DatasetRun& run, const fs::path& folder, const RunOptions& given, 
   simulate.map.load = load_options(run);
   simulate.map.path = run.map->is_shape() ? shapes_folder(folder) / (run.map->name + ".exr") : run.map->file;
   simulate.sha256 = map.sha256;
+  simulate.albedo_sha256 = albedo.sha256;
   run.fault = map.fault.empty() ? albedo.fault : map.fault;
   if (run.fault.empty()) {
     const std::string reflectance = run.options->albedo_file.empty() ? simulate.albedo : albedo.sha256;
     const Json all = {{"version", HEIGHTLIGHT_VERSION},
                       {"map", describe_map(*run.map, map, simulate.map.load)},
                       {"options", describe_simulation(simulate, reflectance)}};
-    run.key = request_key(all);
+    run.key = simulate.key = request_key(all);
   }
   run.name = name_run(run);
   simulate.folder = runs_folder(folder) / run.name;
@@ -123,12 +127,27 @@ std::vector<DatasetRun> list_runs(const Manifest& manifest, const fs::path& fold
 
 bool is_done(const DatasetRun& run, bool with_plots) {
   if (!run.fault.empty()) return false;
-  const auto files = read_file_records(run.simulate.folder / "summary.json");
-  const auto is_plot = [](const FileRecord& file) { return file.name == "curves.svg"; };
-  if (!files || files->empty()) return false;
-  if (with_plots && std::none_of(files->begin(), files->end(), is_plot)) return false;
-  return std::all_of(files->begin(), files->end(),
-                     [&](const FileRecord& file) { return is_as_recorded(run.simulate.folder, file); });
+  std::vector<std::string> wanted{"curves.csv", "ambient_occlusion.exr", "sky_view_factor.exr",
+                                  "irradiance_total.exr"};
+  if (with_plots) wanted.insert(wanted.end(), {"curves.svg", "curves.png"});
+  for (int b = 0; run.simulate.save_bounces && b <= run.simulate.bounces; ++b)
+    wanted.push_back(bounce_file(b));
+  try {
+    const nlohmann::json summary = read_json(run.simulate.folder / "summary.json");
+    const auto files = parse_file_records(summary);
+    if (!files || !summary.contains("key") || summary["key"] != run.key) return false;
+    for (const std::string& name : wanted) {
+      const auto has_name = [&](const FileRecord& file) { return file.name == name; };
+      if (std::none_of(files->begin(), files->end(), has_name)) return false;
+    }
+    check_summary(run, summary);
+    return std::all_of(files->begin(), files->end(),
+                       [&](const FileRecord& file) { return is_as_recorded(run.simulate.folder, file); });
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const std::exception&) {
+    return false;  // damaged from outside: made again
+  }
 }
 
 }  // namespace heightlight

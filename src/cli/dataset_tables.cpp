@@ -116,6 +116,13 @@ std::string cost_line(const DatasetRun& run, const Json& summary) {
 
 }  // namespace
 
+void check_summary(const DatasetRun& run, const nlohmann::json& summary) {
+  const Json all(summary);
+  describe_line(run, all);
+  describe_run(run, all);
+  cost_line(run, all);
+}
+
 void refuse_to_replace(const std::vector<fs::path>& inputs, const fs::path& folder) {
   const InputGuard guard(inputs);
   for (const char* name : kTables) guard.check(folder / name);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "cli/dataset_runs.h"
@@ -18,5 +19,8 @@ void write_tables(const Manifest& manifest, const std::vector<DatasetRun>& runs,
 
 /// Throws UsageError naming an input that these tables would replace.
 void refuse_to_replace(const std::vector<std::filesystem::path>& inputs, const std::filesystem::path& folder);
+
+/// Throws an exception of the JSON library where the summary of a run lacks what these tables tell of it.
+void check_summary(const DatasetRun& run, const nlohmann::json& summary);
 
 }  // namespace heightlight

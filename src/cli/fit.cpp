@@ -9,7 +9,9 @@
 #include "cli/fit_report.h"
 #include "cli/map_options.h"
 #include "cli/plots.h"
+#include "cli/tell.h"
 #include "cli/terminal_watch.h"
+#include "cli/warnings.h"
 #include "files/output_file.h"
 #include "files/printable.h"
 #include "files/staged_output.h"
@@ -29,16 +31,21 @@ struct FitOptions {
 /// `inputs` gets the file of each.
 std::vector<JudgedMap> read_maps(const FitOptions& options, std::vector<std::filesystem::path>& inputs) {
   std::vector<JudgedMap> maps;
+  std::size_t without_run = 0;
   const Watch watch = terminal_watch(options.run.quiet);
   Progress progress("reading", static_cast<std::int64_t>(options.curves.size()), watch);
   for (const std::filesystem::path& path : options.curves) {
     progress.throw_if_stopped();
     for (JudgedMap& map : read_judged_maps(path, options.run.memory)) {
+      without_run += map.expected_seen ? 0 : 1;
       maps.push_back(std::move(map));
       inputs.push_back(path);
     }
     progress.add(1);
   }
+  if (without_run > 0 && without_run < maps.size())
+    tell("warning: " + std::to_string(without_run) + " of " + std::to_string(maps.size()) +
+         " maps have no summary.json beside their curves, and are not judged by what it tells");
   return maps;
 }
 
@@ -104,7 +111,7 @@ void fit(FitOptions& options) {
   StagedFolder folder(options.folder, options.curves,
                       {"models.json", "models.csv", "models.glsl", "models.hlsl", "fitted.svg", "fitted.png",
                        "errors.svg", "errors.png", "cubic.svg", "cubic.png"},
-                      "models.json");
+                      {.file = "models.json"});
   Plots plots;
   FitReport report;
   report.seed = options.run.seed;
@@ -122,8 +129,9 @@ void fit(FitOptions& options) {
   draw_plots(folder, report, plots);
   report.files = folder.written();
   write_bytes(folder.file("models.json"), report_json(report));
-  folder.commit();
+  const std::vector<std::string> removed = folder.commit();
   if (!options.run.quiet) {
+    report_removed(removed);
     print_report(report);
     fmt::print("results in {}\n", printable(options.folder));
   }

@@ -24,7 +24,9 @@ void report_file(const std::filesystem::path& path, const SourceFacts& facts) {
              facts.levels > kMostLevels ? "more than " : "", std::min(facts.levels, kMostLevels),
              facts.is_stretched ? " (without unit; stretched to the relief)" : "");
   if (facts.white_is_zero) fmt::print("white is 0  larger numbers are darker, and lower\n");
-  if (facts.declared_no_data) fmt::print("no-data    {:.9g}, says the file\n", *facts.declared_no_data);
+  if (facts.declared_no_data)
+    fmt::print("no-data    {:.9g}, {}\n", *facts.declared_no_data,
+               facts.no_data_assumed ? "by default of such grids" : "says the file");
   fmt::print("sha256     {}\n", facts.sha256);
 }
 

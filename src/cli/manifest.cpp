@@ -176,6 +176,7 @@ void read_relief_shares(const JsonPlace& place, Manifest& manifest) {
     std::optional<double> share;
     if (!item.is_text()) {
       share = item.positive_number();
+      if (*share < 1e-12 || *share > 1e12) throw item.error("must be from 1e-12 to 1e12");
     } else if (item.text() != "own") {
       throw item.error("must be a positive number, or \"own\"");
     }

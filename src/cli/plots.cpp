@@ -1,10 +1,8 @@
 #include "cli/plots.h"
 
-#include <fmt/core.h>
+#include <fstream>
 
-#include <cstdio>
-
-#include "files/printable.h"
+#include "cli/tell.h"
 #include "plot/gnuplot_run.h"
 
 namespace heightlight {
@@ -13,9 +11,21 @@ Plots::Plots() {
   if (const std::string fault = gnuplot_fault(); !fault.empty()) give_up(fault);
 }
 
+namespace {
+
+/// What gnuplot's terminals svg and pngcairo begin with.
+void check_picture(const std::filesystem::path& path) {
+  const std::string begin = path.extension() == ".svg" ? "<?xml" : "\x89PNG\r\n";
+  std::string bytes(begin.size(), '\0');
+  std::ifstream(path, std::ios::binary).read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (bytes != begin) throw PlotError("plots need gnuplot, which drew no picture");
+}
+
+}  // namespace
+
 void Plots::give_up(const std::string& fault) {
   possible_ = false;
-  fmt::print(stderr, "heightlight: {}; the results will lack their plots\n", printable(fault));
+  tell(fault + "; the results will lack their plots");
 }
 
 void Plots::draw(StagedFolder& folder, const std::vector<std::string>& names,
@@ -25,6 +35,7 @@ void Plots::draw(StagedFolder& folder, const std::vector<std::string>& names,
   for (const std::string& name : names) paths.push_back(folder.file(name));
   try {
     draw(paths);
+    for (const std::filesystem::path& path : paths) check_picture(path);
   } catch (const PlotError& error) {
     for (const std::string& name : names) folder.leave_out(name);
     give_up(error.what());

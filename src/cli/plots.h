@@ -8,7 +8,8 @@
 
 namespace heightlight {
 
-/// Results are complete but for the plots, as was told: the command exits with kExitWithoutPlots.
+/// Thrown when all results are there but plots, which has been told. The command then exits with
+/// kExitWithoutPlots.
 struct PlotsMissing {};
 constexpr int kExitWithoutPlots = 3;
 

@@ -16,6 +16,7 @@ namespace {
 void report(const SimulateOptions& options, const Simulation& simulation) {
   tell_warnings(options.map.path, simulation.warnings);
   if (options.run.quiet) return;
+  report_removed(simulation.removed);
   const StepTimes& own = simulation.seconds;
   const Evidence& evidence = simulation.evidence;
   const std::string links = evidence.links > 0 ? fmt::format(", {} links ({})", evidence.links,
@@ -68,6 +69,8 @@ void add_simulate_command(CLI::App& app) {
   command->callback([options] {
     apply_run_options(options->run);
     check_simulate_options(*options);
+    check_load_options(options->map.load);
+    check_albedo(options->albedo);
     Plots plots;
     report(*options, simulate_map(*options, plots, terminal_watch(options->run.quiet)));
     plots.check();

@@ -20,8 +20,11 @@ const std::vector<double> kStudiedReliefs{0.01, 0.03, 0.1, 0.3, 1.0};
 constexpr int kStudySide = 128;
 constexpr int kStudyBins = 40;
 
-std::vector<std::filesystem::path> input_files(const SimulateOptions& options) {
-  return {options.map.path, options.albedo};  // an albedo that is a number names no file
+InputGuard guard_inputs(const SimulateOptions& options) {
+  std::vector<std::filesystem::path> files = options.more_inputs;
+  files.push_back(options.map.path);
+  files.emplace_back(options.albedo);  // which names no file where it is a number
+  return files;
 }
 
 LoadedHeightmap load_input(const SimulateOptions& options) {
@@ -29,6 +32,13 @@ LoadedHeightmap load_input(const SimulateOptions& options) {
   if (!options.sha256.empty() && loaded.facts.sha256 != options.sha256)
     throw file_error(options.map.path, "was changed while it was in use");
   return loaded;
+}
+
+Albedo read_input_albedo(const SimulateOptions& options, const Heightmap& map) {
+  ReadAlbedo read = read_albedo(options.albedo, map, options.run.memory);
+  if (!options.albedo_sha256.empty() && read.sha256 != options.albedo_sha256)
+    throw file_error(options.albedo, "was changed while it was in use");
+  return std::move(read.albedo);
 }
 
 /// What the sink, the albedo and the totals as maps hold beside the solution.
@@ -59,17 +69,14 @@ Request make_request(const SimulateOptions& options, const Albedo& albedo, const
   return request;
 }
 
-/// The figure of the curves, with a study of the relief.
-void plot_curves_of(StagedFolder& folder, const SimulateOptions& options, const Surface& surface,
-                    const std::vector<BounceCurves>& curves, Plots& plots, const Watch& watch) {
-  if (!plots.possible()) return;
+/// What the figure of the curves shows: them, and a study of the relief.
+CurvePlotInput curve_plot(const SimulateOptions& options, const Surface& surface,
+                          const std::vector<BounceCurves>& curves, const Watch& watch) {
   const ReliefStudy study{.relief_shares = kStudiedReliefs, .largest_side = kStudySide, .bins = kStudyBins};
-  const CurvePlotInput input{.ambient_occlusion = curves[0],
-                             .sky_view_factor = curves[1],
-                             .reliefs = study_reliefs(surface.map, study, watch),
-                             .title = printable(options.map.path.filename())};
-  plots.draw(folder, {"curves.svg", "curves.png"},
-             [&](const auto& paths) { plot_curves(paths[0], paths[1], input); });
+  return {.ambient_occlusion = curves[0],
+          .sky_view_factor = curves[1],
+          .reliefs = study_reliefs(surface.map, study, watch),
+          .title = printable(options.map.path.filename())};
 }
 
 void write_maps(StagedFolder& folder, const Surface& surface, const Results& results,
@@ -102,15 +109,15 @@ Simulation simulate_map(const SimulateOptions& options, Plots& plots, const Watc
   Simulation simulation;
   StepTimes& seconds = simulation.seconds;
   check_simulate_options(options);
-  StagedFolder folder(options.folder, input_files(options), simulation_file_names(options.bounces),
-                      "summary.json");
+  StagedFolder folder(options.folder, guard_inputs(options), simulation_file_names(options.bounces),
+                      {.file = "summary.json", .prefix = "irradiance_"});
   LoadedHeightmap loaded = load_input(options);
   simulation.facts = loaded.facts;
   simulation.warnings = loaded.warnings;
   const Surface surface = build_surface(std::move(loaded.map));
   simulation.width = surface.width();
   simulation.height = surface.height();
-  const Albedo albedo = read_albedo(options.albedo, surface.map, options.run.memory);
+  const Albedo albedo = read_input_albedo(options, surface.map);
   seconds.load = lap.lap();
 
   SimulationSink sink(surface, options, folder);
@@ -126,14 +133,18 @@ Simulation simulate_map(const SimulateOptions& options, Plots& plots, const Watc
   lap.lap();
   const std::vector<BounceCurves> curves = sink.curves();
   write_curves_csv(folder.file("curves.csv"), curves);
-  plot_curves_of(folder, options, surface, curves, plots, watch);
+  if (plots.possible()) {
+    const CurvePlotInput input = curve_plot(options, surface, curves, watch);
+    plots.draw(folder, {"curves.svg", "curves.png"},
+               [&](const auto& paths) { plot_curves(paths[0], paths[1], input); });
+  }
   seconds.curves = results.evidence.seconds.sink + lap.lap();
   write_maps(folder, surface, results, sink);
   seconds.output = lap.lap();
   seconds.total = total.lap();
   simulation.files = folder.written();
   write_summary(folder.file("summary.json"), options, surface, albedo, simulation);
-  folder.commit();
+  simulation.removed = folder.commit();
   return simulation;
 }
 

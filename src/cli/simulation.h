@@ -18,7 +18,10 @@ namespace heightlight {
 struct SimulateOptions {
   MapOptions map;
   RunOptions run;
-  std::string sha256;  ///< what the map's file must have; empty: whatever it has
+  std::string sha256;         ///< what the map's file must have; empty: whatever it has
+  std::string albedo_sha256;  ///< likewise
+  std::string key;            ///< of the run in a dataset, for its summary; empty: it is in none
+  std::vector<std::filesystem::path> more_inputs;  ///< files that the results must not replace either
   std::filesystem::path folder;
   VisibilityOptions visibility;
   int bounces = 20;
@@ -44,7 +47,8 @@ struct Simulation {
   Evidence evidence;
   std::vector<Warning> warnings;  ///< of the map, and of an error that was missed
   StepTimes seconds;
-  std::vector<FileRecord> files;  ///< that the folder holds beside the summary
+  std::vector<std::string> removed;  ///< files of an earlier result
+  std::vector<FileRecord> files;     ///< that the folder holds beside the summary
 };
 
 /// Throws UsageError naming the option that is out of its range or contradicts another.

@@ -10,6 +10,7 @@ void write_summary(const std::filesystem::path& path, const SimulateOptions& opt
   const Evidence& evidence = simulation.evidence;
   nlohmann::ordered_json summary;
   summary["version"] = HEIGHTLIGHT_VERSION;
+  if (!options.key.empty()) summary["key"] = options.key;
   summary["map"] = describe_map(options.map.path, simulation.facts.sha256, surface);
   summary["files"] = describe_files(simulation.files);
   summary["warnings"] = describe_warnings(simulation.warnings);

@@ -1,6 +1,7 @@
 #include "cli/user_message.h"
 
 #include <algorithm>
+#include <new>
 
 namespace heightlight {
 namespace {
@@ -20,6 +21,12 @@ std::string user_message(const Error& error) {
   }
   if (!error.remedy.empty()) message += " (" + option_of(error.remedy) + ")";
   return message;
+}
+
+std::string user_message(const std::exception& error) {
+  if (const auto* known = dynamic_cast<const Error*>(&error)) return user_message(*known);
+  if (dynamic_cast<const std::bad_alloc*>(&error)) return "out of memory";
+  return error.what();
 }
 
 }  // namespace heightlight

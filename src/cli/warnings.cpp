@@ -2,8 +2,7 @@
 
 #include <fmt/core.h>
 
-#include <cstdio>
-
+#include "cli/tell.h"
 #include "cli/user_message.h"
 #include "files/printable.h"
 
@@ -15,8 +14,15 @@ std::string user_message(const Warning& warning) {
 
 void tell_warnings(const std::filesystem::path& map, const std::vector<Warning>& warnings) {
   for (const Warning& warning : warnings) {
-    fmt::print(stderr, "heightlight: warning: {}: {}\n", printable(map), printable(user_message(warning)));
+    tell("warning: " + map.string() + ": " + user_message(warning));
   }
+}
+
+void report_removed(const std::vector<std::string>& names) {
+  if (names.empty()) return;
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  fmt::print("removed what an earlier result had and this one has not: {}\n", printable(list));
 }
 
 }  // namespace heightlight

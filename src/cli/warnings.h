@@ -15,4 +15,7 @@ std::string user_message(const Warning& warning);
 /// hang on them.
 void tell_warnings(const std::filesystem::path& map, const std::vector<Warning>& warnings);
 
+/// Says on stdout which files of an earlier result went away, if any did.
+void report_removed(const std::vector<std::string>& names);
+
 }  // namespace heightlight

@@ -42,19 +42,18 @@ std::vector<char> find_holes(const StoredImage& image, std::size_t texels, Chann
   if (image.channels.size() < 2 || alpha == image.channels.end()) return {};
   const auto channel = static_cast<std::size_t>(alpha - image.channels.begin());
   std::vector<char> holes(texels);
+  std::size_t transparent = 0;
   for (std::size_t texel = 0; texel < texels; ++texel) {
     holes[texel] = sample_at(image, texel, channel) == 0 ? 1 : 0;
-    picked.transparent += static_cast<std::size_t>(holes[texel]);
+    transparent += static_cast<std::size_t>(holes[texel]);
   }
-  if (picked.transparent == texels) {
-    picked.transparent = 0;
+  if (transparent == texels) {
     picked.warnings.emplace_back("its alpha is 0 everywhere; it was not taken for transparency");
-  } else if (picked.transparent > 0) {
-    picked.warnings.push_back(std::to_string(picked.transparent) +
-                              " samples are transparent, and count as missing");
+  } else if (transparent > 0) {
+    picked.warnings.push_back(std::to_string(transparent) + " of its samples are transparent: missing");
+    return holes;
   }
-  if (picked.transparent == 0) holes.clear();
-  return holes;
+  return {};
 }
 
 /// Whether the channels hold the same value at every texel outside the holes (NaN is the same as NaN).

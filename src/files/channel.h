@@ -10,9 +10,8 @@ namespace heightlight {
 
 /// The samples of one channel, and what to call it.
 struct ChannelSamples {
-  Image<double> values;         ///< NaN where transparent
-  std::string name;             ///< "Y", "R", or "grey (R = G = B)"
-  std::size_t transparent = 0;  ///< samples that are
+  Image<double> values;  ///< NaN where transparent
+  std::string name;      ///< "Y", "R", or "grey (R = G = B)"
   std::vector<std::string> warnings = {};
 };
 

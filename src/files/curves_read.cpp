@@ -11,6 +11,7 @@
 
 #include "base/byte_size.h"
 #include "files/input_file.h"
+#include "files/named.h"
 #include "heightlight/error.h"
 #include "heightlight/files.h"
 
@@ -51,8 +52,8 @@ class LineReader {
     ++line_;
     std::string_view line = buffer_.data();
     if (!line.ends_with('\n') && line.size() + 1 == buffer_.size()) throw error("longer than any of curves");
-    constexpr std::string_view kMark = "\xef\xbb\xbf";
-    if (line_ == 1 && line.starts_with(kMark)) line.remove_prefix(kMark.size());
+    if (line_ == 1) refuse_utf16(file_.path(), line);
+    if (line_ == 1 && line.starts_with(kByteOrderMark)) line.remove_prefix(kByteOrderMark.size());
     while (line.ends_with('\n') || line.ends_with('\r')) line.remove_suffix(1);
     return line;
   }
@@ -234,9 +235,10 @@ class CurvesReader {
 
 std::vector<RunCurves> read_run_curves(const std::filesystem::path& path, std::uint64_t memory_limit) {
   const InputFile file(path);
-  // A line of text is longer than what becomes of it.
-  if (file.size() > memory_limit) {
-    throw file.error("reading it may take " + format_byte_size(file.size()) + " of memory, and " +
+  // The shortest lines, of some 40 characters, begin a bin each; and vectors double as they grow.
+  constexpr std::uint64_t kPerByte = 2 * (sizeof(CurveBin) + sizeof(BounceStatistics)) / 40 + 1;
+  if (file.size() > memory_limit / kPerByte) {
+    throw file.error("reading it may take " + format_byte_size(kPerByte * file.size()) + " of memory, and " +
                          format_byte_size(memory_limit) + " are allowed",
                      "memory");
   }

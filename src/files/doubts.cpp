@@ -43,16 +43,16 @@ void doubt_relief(const Heightmap& map, const StoredHeights& stored, const LoadO
   const double extent = std::max(width, map.height.height * map.spacing.y);
   const bool spacing_known =
       options.width || options.texel || stored.grid || (stored.tiff && stored.tiff->pixel_scale);
+  const bool as_it_is = !spacing_known && !options.relief && !options.relief_share;
   const double slope = median_slope_deg(map);
   if (tall == 0) {
     warnings.push_back({"the map is level: it has no relief"});
-  } else if (!spacing_known && !options.relief && !options.relief_share && tall > 2 * extent) {
+  } else if (as_it_is && tall > 2 * extent) {
     warnings.push_back({fmt::format("its heights span {:.3g}, and without a spacing its width is taken as 1; "
                                     "give the distance between samples in the same unit",
                                     tall),
                         "texel"});
-  } else if (!spacing_known && !stored.facts.is_stretched && !options.relief && !options.relief_share &&
-             tall > 0.3 * width) {
+  } else if (as_it_is && !stored.facts.is_stretched && tall > 0.3 * width) {
     warnings.push_back(
         {fmt::format("its heights are taken as they are and its width as 1, so that the relief "
                      "is {:.3g} of the width; a tenth of the width is usual",
@@ -71,14 +71,52 @@ void doubt_relief(const Heightmap& map, const StoredHeights& stored, const LoadO
   }
 }
 
+/// Whether lines of the map go up and down in single levels, with plateaus between: neither a map that is
+/// flat along one axis, nor one so steep that hardly two neighbours are alike.
+class Terraces {
+ public:
+  explicit Terraces(double step) : step_(step) {}
+
+  void add(float from, float to) {
+    const double rise = std::abs(double{to} - double{from});
+    if (std::isnan(rise)) return;
+    ++steps_;
+    if (rise == 0) {
+      ++level_;
+    } else if (rise < 1.5 * step_) {
+      ++single_;
+    }
+  }
+
+  bool found() const {
+    const double flat = static_cast<double>(level_) / static_cast<double>(std::max<std::size_t>(1, steps_));
+    return flat > 0.1 && flat < 0.98 && 2 * single_ > steps_ - level_;
+  }
+
+ private:
+  double step_;
+  std::size_t steps_ = 0;
+  std::size_t level_ = 0;
+  std::size_t single_ = 0;
+};
+
 void doubt_levels(const Heightmap& map, const SourceFacts& facts, std::vector<Warning>& warnings) {
-  constexpr std::size_t kTexelsPerLevel = 16;  // of fewer, a smooth map has no more levels
-  if (!facts.is_integer || facts.levels < 2 || facts.level_step == 0) return;
-  if (map.height.size() < kTexelsPerLevel * facts.levels) return;
+  constexpr std::size_t kFewest = 8;  // of fewer, terraces are what is meant
+  if (!facts.is_integer || facts.levels < kFewest || facts.level_step == 0) return;
   const double terrace = facts.level_step / (facts.highest - facts.lowest) * relief(map);
+  const Image<float>& h = map.height;
+  Terraces across(terrace);
+  Terraces down(terrace);
+  for (int row = 0; row < h.height; ++row) {
+    for (int column = 0; column < h.width; ++column) {
+      if (column > 0) across.add(h(row, column - 1), h(row, column));
+      if (row > 0) down.add(h(row - 1, column), h(row, column));
+    }
+  }
+  if (!across.found() && !down.found()) return;
   warnings.push_back(
       {fmt::format("only {} levels: slopes are terraces {:.2g} high, which show as contour "
-                   "lines; use the original of 16 bits or floats, or smooth the heights first",
+                   "lines; use the original of more bits or of floats, or smooth the heights",
                    facts.levels, terrace)});
 }
 

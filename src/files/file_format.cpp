@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "files/input_file.h"
+#include "files/named.h"
 
 namespace heightlight {
 namespace {
@@ -134,9 +134,8 @@ FileFormat recognise_format(const InputFile& file) {
   for (const Magic& magic : kMagics) {
     if (head.starts_with(magic.bytes)) return magic.format;
   }
-  if (head.starts_with("\xff\xfe") || head.starts_with("\xfe\xff"))
-    throw file.error("is text in UTF-16; save it as UTF-8, or as plain ASCII");
-  if (head.starts_with("\xef\xbb\xbf")) head.remove_prefix(3);
+  refuse_utf16(file.path(), head);
+  if (head.starts_with(kByteOrderMark)) head.remove_prefix(kByteOrderMark.size());
   const std::string unread = explain_unread(file.path(), head);
   if (!unread.empty()) throw file.error(unread);
   if (looks_like_esri_grid(file.path(), head)) return FileFormat::esri_grid;

@@ -20,11 +20,15 @@ struct FileRecord {
 /// Of a file as it is now; `path` is its place, `name` what it is or will be called. Throws Error.
 FileRecord record_file(const std::filesystem::path& path, const std::string& name);
 
-/// {"file": …, "bytes": …, "sha256": …}, an entry of the key `files`.
+/// {"file": …, "bytes": …, "sha256": …}, an entry of the key `files`; with `file_hex`, the name's bytes,
+/// where those are no UTF-8, which JSON cannot hold.
 nlohmann::ordered_json describe_file(const FileRecord& record);
 
-/// The key `files` of a file of JSON beside results; nothing where the file is absent, is damaged or has no
-/// such key. Entries with a folder in their name, which this program does not write, are left out.
+/// The key `files` of such JSON; nothing where there is none. Entries with a folder or a zero byte in their
+/// name, which this program does not write, are left out.
+std::optional<std::vector<FileRecord>> parse_file_records(const nlohmann::json& all);
+
+/// Likewise of a file; nothing where that is absent or damaged.
 std::optional<std::vector<FileRecord>> read_file_records(const std::filesystem::path& json);
 
 /// Whether the folder still holds the file as it was recorded.

@@ -91,10 +91,7 @@ std::vector<std::string> part_names(OIIO::ImageInput& input) {
 /// Which image of the file to read.
 int choose_part(const InputFile& file, FileFormat format, OIIO::ImageInput& input,
                 const std::optional<std::string>& part) {
-  if (format != FileFormat::openexr) {
-    if (part) throw UsageError(file.path().string() + ": has no parts; only EXR files have");
-    return 0;
-  }
+  if (format != FileFormat::openexr) return 0;
   const std::vector<std::string> names = part_names(input);
   if (part) return static_cast<int>(find_named("part", file, names, *part));
   if (names.size() <= 1) return 0;
@@ -114,10 +111,9 @@ void turn_back_white_is_zero(StoredImage& image) {
 
 StoredImage read_image(const InputFile& file, FileFormat format, std::uint64_t memory_limit,
                        const std::optional<std::string>& part) {
-  if (format == FileFormat::png) {
-    if (part) throw UsageError(file.path().string() + ": has no parts; only EXR files have");
-    return read_png(file, memory_limit);
-  }
+  if (part && format != FileFormat::openexr)
+    throw UsageError(file.path().string() + ": has no parts; only EXR files have");
+  if (format == FileFormat::png) return read_png(file, memory_limit);
   StoredImage image;
   check_before_opening(file, format, image);
   OIIO::ImageSpec spec;
@@ -139,7 +135,7 @@ StoredImage read_image(const InputFile& file, FileFormat format, std::uint64_t m
   image.channels = spec.channelnames;
   if (format == FileFormat::tiff) {
     check_tiff_layout(file, spec, image.bits);
-    check_tiff_sums(file);
+    check_tiff_blocks(file);
   }
   image.samples = type.make(spec.image_pixels() * channels);
   const bool read = std::visit(

@@ -42,11 +42,12 @@ StoredImage read_image(const InputFile& file, FileFormat format, std::uint64_t m
 /// Part of read_image: PNG, through libpng.
 StoredImage read_png(const InputFile& file, std::uint64_t memory_limit);
 
-/// Bytes for each texel while a heightmap is made: the file's samples beside one channel of them as double,
-/// and afterwards those doubles beside the heights as float.
+/// Bytes for each texel while a heightmap is made: the file's samples beside one channel of them as double
+/// and a mark of what is transparent, and afterwards those doubles beside the heights as float.
 constexpr std::uint64_t bytes_per_texel(std::uint64_t stored_bytes) {
   constexpr std::uint64_t kHeight = sizeof(float);
-  return sizeof(double) + (stored_bytes > kHeight ? stored_bytes : kHeight);
+  const std::uint64_t marked = stored_bytes + 1;
+  return sizeof(double) + (marked > kHeight ? marked : kHeight);
 }
 
 }  // namespace heightlight

@@ -1,6 +1,5 @@
 #include "files/input_file.h"
 
-#include <fcntl.h>
 #include <sys/stat.h>
 
 #include <cerrno>

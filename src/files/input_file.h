@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <ctime>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -24,7 +25,8 @@ Error file_error(const std::filesystem::path& path, const std::string& fault, co
 File open_input(const std::filesystem::path& path);
 
 /// A file that several readers read one after the other: its format, its samples, its checksum. It is opened
-/// once, so that all see the same bytes, whatever takes its name meanwhile.
+/// once, so that all see the same bytes, whatever takes its name meanwhile (libraries that want a name need
+/// /proc for that).
 class InputFile {
  public:
   /// A path stands for the file at it. Throws Error as open_input does.

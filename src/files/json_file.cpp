@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "files/input_file.h"
+#include "files/named.h"
 #include "files/printable.h"
 
 namespace heightlight {
@@ -57,6 +58,7 @@ class ParseGuard {
 
 nlohmann::json read_json(const std::filesystem::path& path) {
   const std::string text = read_all(path);
+  refuse_utf16(path, text);
   ParseGuard guard(path);
   try {
     return nlohmann::json::parse(

@@ -45,7 +45,8 @@ Spacing choose_spacing(const InputFile& file, const LoadOptions& options, const 
   Spacing cell{1 / columns, 1 / columns};
   if (const std::optional<EsriHeader> place = georeference(stored)) {
     cell = {place->cell_x, place->cell_y};
-    const bool said = stored.tiff && stored.tiff->in_degrees && place->south;
+    const bool said = stored.tiff && stored.tiff->in_degrees;
+    if (said && !place->south) throw file.error("its pixel scale is in degrees; give it in metres", "texel");
     if (said || is_in_degrees(*place, stored.facts.highest - stored.facts.lowest)) {
       const Spacing metres = cell_in_metres(*place);
       const std::string texel = fmt::format("{:.4g}x{:.4g}", metres.x, metres.y);
@@ -90,6 +91,7 @@ void check_load_options(const LoadOptions& options) {
   if (options.relief && options.relief_share)
     throw UsageError("the relief is given twice: as a height, and as a share of the width");
   check_length("width", options.width);
+  if (options.shrink < 1) throw UsageError("shrink", std::to_string(options.shrink), "must be 1 or more");
   if (options.no_data && !std::isfinite(*options.no_data))
     throw UsageError("no_data", "", "must be a number; NaN and infinities are missing anyway");
   if (!options.texel) return;

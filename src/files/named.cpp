@@ -29,4 +29,9 @@ std::size_t find_named(const char* kind, const InputFile& file, const std::vecto
                    join_names(names));
 }
 
+void refuse_utf16(const std::filesystem::path& path, std::string_view head) {
+  if (head.starts_with("\xff\xfe") || head.starts_with("\xfe\xff"))
+    throw file_error(path, "is text in UTF-16; save it as UTF-8, or as plain ASCII");
+}
+
 }  // namespace heightlight

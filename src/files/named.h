@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "files/input_file.h"
@@ -17,5 +18,11 @@ std::string join_names(const std::vector<std::string>& names, const char* betwee
 /// Throws UsageError naming the file and what there is; `kind` is "channel" or "part".
 std::size_t find_named(const char* kind, const InputFile& file, const std::vector<std::string>& names,
                        const std::string& wanted);
+
+/// The byte-order mark of UTF-8, which some editors put before text.
+inline constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+
+/// Throws Error naming the file where text begins with the mark of UTF-16.
+void refuse_utf16(const std::filesystem::path& path, std::string_view head);
 
 }  // namespace heightlight

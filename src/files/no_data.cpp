@@ -29,7 +29,7 @@ std::optional<double> nearest_float(double value) {
 /// Halves have 11 significant bits, and an exponent of at least −14.
 std::optional<double> nearest_half(double value) {
   constexpr double kLargest = 65504;
-  if (std::abs(value) > kLargest) return std::nullopt;  // an infinity, which is missing anyway
+  if (std::abs(value) > kLargest) return std::nullopt;  // no sample is that large
   const double unit = std::ldexp(1, (value == 0 ? -14 : std::max(std::ilogb(value), -14)) - 10);
   return std::nearbyint(value / unit) * unit;
 }

@@ -20,7 +20,11 @@ void write_file(const std::filesystem::path& path, const std::function<void(std:
   errno = 0;
   const File file(std::fopen(path.c_str(), "wb"));
   if (!file) throw output_error(path, errno);
-  write(file.get());
+  try {
+    write(file.get());
+  } catch (const std::system_error& fault) {  // of formatted output
+    throw output_error(path, fault.code().value());
+  }
   // A full disk may show only when the last bytes leave the buffer.
   if (std::fflush(file.get()) != 0 || std::ferror(file.get()))
     throw output_error(path, errno == 0 ? EIO : errno);

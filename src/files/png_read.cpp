@@ -1,10 +1,10 @@
 #include <png.h>
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <csetjmp>
 #include <cstring>
+#include <set>
 
 #include "files/image_read.h"
 #include "files/input_file.h"
@@ -19,7 +19,7 @@ struct PngState {
   png_structp png = nullptr;
   png_infop info = nullptr;
   std::string fault;
-  std::vector<std::string> bad_sums;  ///< chunks that may be left out, and were
+  std::set<std::string> bad_sums;  ///< kinds of chunks that may be left out, and were
   std::vector<png_bytep> rows;
 
   PngState() = default;
@@ -35,8 +35,10 @@ PngState& state_of(png_structp png) { return *static_cast<PngState*>(png_get_err
   png_longjmp(png, 1);
 }
 
+/// Of a chunk that libpng leaves out. Only tRNS says anything of the samples: which are transparent.
 void note_warning(png_structp png, png_const_charp message) {
-  if (std::strstr(message, "CRC error")) state_of(png).bad_sums.emplace_back(message, 4);
+  if (std::strncmp(message, "tRNS", 4) == 0) note_error(png, message);
+  if (std::strstr(message, "CRC error")) state_of(png).bad_sums.emplace(message, 4);
 }
 
 /// The image header chunk, which comes first.
@@ -129,12 +131,14 @@ StoredImage read_png(const InputFile& file, std::uint64_t memory_limit) {
   image.is_integer = true;
   image.samples = sample_bytes == 2 ? make_rows<std::uint16_t>(state, header.height, header.width * channels)
                                     : make_rows<std::uint8_t>(state, header.height, header.width * channels);
+  const bool as_announced = png_get_image_width(state.png, state.info) == header.width &&
+                            png_get_image_height(state.png, state.info) == header.height &&
+                            png_get_rowbytes(state.png, state.info) == header.width * channels * sample_bytes;
+  if (!as_announced) throw file.error("was written to while it was read");
   if (!read_rows(state)) throw decoding_error(file, state.fault);
   for (const std::string& chunk : state.bad_sums) {
-    // It says which samples are transparent, so that heights hang on it.
-    if (chunk == "tRNS") throw decoding_error(file, "tRNS: CRC error");
-    image.warnings.push_back("the checksum of its chunk " + chunk +
-                             " is wrong; that chunk says nothing of the samples, and was left out");
+    image.warnings.push_back("the checksum of a chunk " + chunk +
+                             " is wrong; such chunks say nothing of the samples, and it was left out");
   }
   return image;
 }

@@ -51,4 +51,14 @@ std::string printable(const std::string& whole) {
   return result;
 }
 
+bool is_utf8(const std::string& text) {
+  constexpr std::uint32_t kNone = Sequence{}.code;
+  for (std::string_view rest = text; !rest.empty();) {
+    const Sequence first = first_sequence(rest);
+    if (first.bytes == 1 && first.code == kNone) return false;
+    rest.remove_prefix(first.bytes);
+  }
+  return true;
+}
+
 }  // namespace heightlight

@@ -90,7 +90,7 @@ std::optional<RunSummary> read_run_summary(const std::filesystem::path& curves) 
                        "the map again");
     }
     RunSummary run;
-    run.files = read_file_records(path).value_or(run.files);
+    run.files = parse_file_records(summary).value_or(run.files);
     const FileRecord* record = find_record(run, curves.filename().string());
     if (!record) return std::nullopt;
     check_recorded(curves, *record);

@@ -89,15 +89,17 @@ std::optional<std::pair<std::uint64_t, std::uint64_t>> identity_of(const fs::pat
 }  // namespace
 
 InputGuard::InputGuard(const std::vector<fs::path>& inputs) {
+  std::map<Identity, fs::path> known;
   for (const fs::path& input : inputs) {
-    if (const auto identity = identity_of(input)) inputs_.emplace(*identity, input);
+    if (const auto identity = identity_of(input)) known.emplace(*identity, input);
   }
+  inputs_ = std::make_shared<const std::map<Identity, fs::path>>(std::move(known));
 }
 
 const fs::path* InputGuard::find(const fs::path& destination) const {
   const auto identity = identity_of(destination);
-  const auto found = identity ? inputs_.find(*identity) : inputs_.end();
-  return found == inputs_.end() ? nullptr : &found->second;
+  const auto found = identity ? inputs_->find(*identity) : inputs_->end();
+  return found == inputs_->end() ? nullptr : &found->second;
 }
 
 void InputGuard::check(const fs::path& destination) const {
@@ -108,9 +110,9 @@ void InputGuard::check(const fs::path& destination) const {
   throw error;
 }
 
-StagedFolder::StagedFolder(fs::path folder, const std::vector<fs::path>& inputs,
-                           const std::vector<std::string>& results, std::string record)
-    : folder_(std::move(folder)), inputs_(inputs), record_(std::move(record)) {
+StagedFolder::StagedFolder(fs::path folder, InputGuard inputs, const std::vector<std::string>& results,
+                           FormerRecord record)
+    : folder_(std::move(folder)), inputs_(std::move(inputs)), record_(std::move(record)) {
   if (!folder_.has_filename()) folder_ = folder_.parent_path();  // "out/" is "out"
   for (const std::string& name : results) inputs_.check(folder_ / name);
   std::error_code failure;
@@ -137,7 +139,12 @@ StagedFolder::StagedFolder(fs::path folder, const std::vector<fs::path>& inputs,
     remove_empty_folders(parent, first_created_);
     throw;
   }
-  if (!record_.empty() && !is_new_) former_ = read_file_records(folder_ / record_).value_or(former_);
+  if (record_.file.empty() || is_new_) return;
+  former_ = read_file_records(folder_ / record_.file).value_or(former_);
+  std::erase_if(former_, [&](const FileRecord& file) {
+    const bool prefixed = !record_.prefix.empty() && file.name.starts_with(record_.prefix);
+    return !prefixed && std::find(results.begin(), results.end(), file.name) == results.end();
+  });
 }
 
 StagedFolder::~StagedFolder() {
@@ -161,7 +168,6 @@ void StagedFolder::leave_out(const std::string& name) {
 }
 
 void StagedFolder::put_in_place() {
-  const auto lock = hold_off_end();
   if (is_new_ && staging_->become(folder_)) return;
   // Files of the folder that was there, or that another process has made meanwhile.
   for (const std::string& name : names_) rename_into_place(staging_->path() / name, final_path(name));
@@ -173,17 +179,16 @@ std::vector<FileRecord> StagedFolder::written() const {
   return records;
 }
 
-/// Only what is as large as it was recorded: another file under that name is not ours.
+/// Only what is as it was recorded: another file under that name is not ours.
 std::vector<std::string> StagedFolder::remove_former() {
   std::vector<std::string> removed;
   for (const FileRecord& file : former_) {
     const fs::path path = final_path(file.name);
-    const auto is_file = [&](const std::string& name) { return name == file.name; };
-    if (std::any_of(names_.begin(), names_.end(), is_file) || file.name == record_) continue;
+    const bool stays =
+        file.name == record_.file || std::find(names_.begin(), names_.end(), file.name) != names_.end();
     std::error_code failure;
-    if (!fs::is_regular_file(fs::symlink_status(path, failure)) || fs::file_size(path, failure) != file.bytes)
-      continue;
-    if (!inputs_.find(path) && fs::remove(path, failure)) removed.push_back(file.name);
+    if (stays || !fs::is_regular_file(fs::symlink_status(path, failure)) || inputs_.find(path)) continue;
+    if (is_as_recorded(folder_, file) && fs::remove(path, failure)) removed.push_back(file.name);
   }
   return removed;
 }
@@ -196,10 +201,14 @@ std::vector<std::string> StagedFolder::commit() {
     check_replaceable(final_path(name));
   }
   sync_names(staging_->path());
-  put_in_place();
-  committed_ = true;
+  std::vector<std::string> removed;
+  {
+    const auto lock = hold_off_end();
+    put_in_place();
+    committed_ = true;
+    removed = remove_former();
+  }
   staging_.reset();
-  std::vector<std::string> removed = remove_former();
   sync_names(folder_);
   sync_names(parent_of(folder_));
   return removed;

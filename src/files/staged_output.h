@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <initializer_list>
 #include <map>
 #include <memory>
 #include <string>
@@ -13,11 +14,13 @@
 
 namespace heightlight {
 
-/// Files that are read, which no result may replace.
+/// Files that are read, which no result may replace. Copies share what they know.
 class InputGuard {
  public:
   /// Paths at which there is nothing, such as an albedo that is a number, name no input.
-  explicit InputGuard(const std::vector<std::filesystem::path>& inputs);
+  InputGuard(const std::vector<std::filesystem::path>& inputs);  // NOLINT(google-explicit-constructor)
+  InputGuard(std::initializer_list<std::filesystem::path> inputs = {})
+      : InputGuard(std::vector<std::filesystem::path>(inputs)) {}
 
   /// Throws UsageError naming the input that a result at `destination` would replace, whatever it is called
   /// there and here: the same file by device and inode.
@@ -27,7 +30,15 @@ class InputGuard {
   const std::filesystem::path* find(const std::filesystem::path& destination) const;
 
  private:
-  std::map<std::pair<std::uint64_t, std::uint64_t>, std::filesystem::path> inputs_;
+  using Identity = std::pair<std::uint64_t, std::uint64_t>;  ///< device and inode
+  std::shared_ptr<const std::map<Identity, std::filesystem::path>> inputs_;
+};
+
+/// What an earlier result of the same kind left in a folder, and the next takes away where it does not write
+/// it: files that its record lists, under names that such results have.
+struct FormerRecord {
+  std::string file = {};    ///< of JSON, with the key `files` (read_file_records); empty: nothing is known
+  std::string prefix = {};  ///< beside the names that the new result may write: all that begin so
 };
 
 /// A folder of results that appears whole or not at all. Files are written into a hidden staging folder on
@@ -43,8 +54,8 @@ class StagedFolder {
   /// `results`, names of files in the folder, would replace, whatever it is called there and here (the same
   /// file by device and inode); Error naming the folder when it can't be created or written to, exists and is
   /// no folder, or cannot hold a file of such a long name.
-  StagedFolder(std::filesystem::path folder, const std::vector<std::filesystem::path>& inputs,
-               const std::vector<std::string>& results, std::string record = "");
+  StagedFolder(std::filesystem::path folder, InputGuard inputs, const std::vector<std::string>& results,
+               FormerRecord record = {});
   ~StagedFolder();
   StagedFolder(const StagedFolder&) = delete;
   StagedFolder& operator=(const StagedFolder&) = delete;
@@ -76,7 +87,7 @@ class StagedFolder {
   bool is_new_ = false;                  ///< the staging folder is to become the folder
   std::unique_ptr<StagingFolder> staging_;
   std::vector<std::string> names_;
-  std::string record_;
+  FormerRecord record_;
   std::vector<FileRecord> former_;  ///< of the result that was there
   bool committed_ = false;
 };

@@ -72,6 +72,7 @@ void assume_esri_default(StoredHeights& stored) {
   const std::size_t dropped = drop_no_data(kEsriDefault, stored.facts.sample_type, stored.values);
   if (dropped == 0) return;
   stored.facts.declared_no_data = kEsriDefault;
+  stored.facts.no_data_assumed = true;
   stored.warnings.push_back(
       {std::to_string(dropped) +
        " samples are -9999, which means missing where the header names no other value"});

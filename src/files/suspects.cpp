@@ -12,7 +12,14 @@
 namespace heightlight {
 namespace {
 
-/// The two outermost values on one side of a map, distinct; the first of them counted, and placed.
+/// What programs write for missing samples, beside the lowest and the highest float.
+bool is_usual(double value) {
+  constexpr std::array kUsual{-32768.0, -32767.0, -9999.0, -99999.0, 9999.0, 99999.0, 32767.0};
+  return std::find(kUsual.begin(), kUsual.end(), value) != kUsual.end() || std::abs(value) >= 1e9;
+}
+
+/// The outermost value on one side of a map, counted and placed, and the next that is not usual for missing
+/// samples, of which several kinds may stand beside each other.
 struct Outermost {
   double value = 0;
   double next = 0;
@@ -27,22 +34,19 @@ Outermost find_outermost(const std::vector<double>& values, double side) {
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double value = side * values[i];  // comparisons with NaN are false
     if (value > found.value) {
-      found = {.value = value, .next = found.value, .count = 1, .first = i};
+      if (!is_usual(side * found.value)) found.next = found.value;
+      found.value = value;
+      found.count = 1;
+      found.first = i;
     } else if (value == found.value) {
       ++found.count;
-    } else if (value > found.next) {
+    } else if (value > found.next && !is_usual(values[i])) {
       found.next = value;
     }
   }
   found.value *= side;
   found.next *= side;
   return found;
-}
-
-/// What programs write for missing samples, beside the lowest and the highest float.
-bool is_usual(double value) {
-  constexpr std::array kUsual{-32768.0, -32767.0, -9999.0, -99999.0, 9999.0, 99999.0, 32767.0, 65535.0};
-  return std::find(kUsual.begin(), kUsual.end(), value) != kUsual.end() || std::abs(value) >= 1e9;
 }
 
 /// Far: by more than the span of all that lies between, of values that are usual for missing ones; by ten
@@ -68,15 +72,21 @@ std::vector<Warning> find_suspects(const StoredHeights& stored) {
   const Outermost highest = find_outermost(stored.values.values, 1);
   const double span = std::max(0.0, highest.next - lowest.next);
   std::vector<Warning> warnings;
-  for (const auto& [one, where] : {std::pair(lowest, "below"), std::pair(highest, "above")}) {
+  struct Side {
+    const Outermost& outermost;
+    const char* far;
+    const char* others;
+  };
+  for (const auto& [one, far, others] : {Side{lowest, "below", "up"}, Side{highest, "above", "down"}}) {
     if (!is_far(one, span)) continue;
     const std::string value = digits_of(one.value, stored.facts.sample_type);
     const auto width = static_cast<std::size_t>(stored.values.width);
     const std::string who = one.count == 1 ? fmt::format("one sample, in row {} and column {}, is {}",
                                                          one.first / width, one.first % width, value)
                                            : fmt::format("{} samples are {}", one.count, value);
+    const std::string next = digits_of(one.next, stored.facts.sample_type);
     warnings.push_back({fmt::format("{}, far {} all others ({} and {}); if that means missing, say so", who,
-                                    where, digits_of(one.next, stored.facts.sample_type), where),
+                                    far, next, others),
                         "no_data " + value});
   }
   return warnings;

@@ -24,9 +24,10 @@ struct TiffFacts {
 /// be read.
 TiffFacts read_tiff_facts(const InputFile& file);
 
-/// Inflates every block of a deflated TIFF to its end, where its checksum stands, which libtiff does not look
-/// at: a flipped bit would be read as other heights. Other compressions have no checksums, and are not
-/// looked at. Throws Error naming the file for a block that is damaged.
-void check_tiff_sums(const InputFile& file);
+/// Looks at every block before a library reads it. Throws Error naming the file for one that ends beyond the
+/// file, or is larger than twice what it holds, which would be taken as memory. Deflated ones are inflated to
+/// their end, where their checksum stands, which OpenImageIO and libtiff do not look at: a flipped bit would
+/// be read as other heights. Other compressions have no checksums.
+void check_tiff_blocks(const InputFile& file);
 
 }  // namespace heightlight

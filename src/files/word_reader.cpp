@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "files/named.h"
+
 namespace heightlight {
 namespace {
 
@@ -12,9 +14,8 @@ bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 }  // namespace
 
 WordReader::WordReader(const InputFile& file) : file_(file), stream_(file.rewound()), block_(1 << 20) {
-  constexpr std::string_view kMark = "\xef\xbb\xbf";
   refill();
-  if (std::string_view(block_.data(), end_).starts_with(kMark)) begin_ = kMark.size();
+  if (std::string_view(block_.data(), end_).starts_with(kByteOrderMark)) begin_ = kByteOrderMark.size();
 }
 
 Error WordReader::error(const std::string& fault) const {

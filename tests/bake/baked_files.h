@@ -78,7 +78,9 @@ inline std::vector<Warning> bake_map(const Heightmap& map, const BakeOptions& op
                                      const std::filesystem::path& folder) {
   LoadedHeightmap loaded;
   loaded.map = map;
-  return bake_material(std::move(loaded), {"m.exr"}, options, folder, "m");
+  return bake_material(std::move(loaded), options,
+                       {.source = "m.exr", .inputs = {"m.exr"}, .folder = folder, .name = "m"})
+      .warnings;
 }
 
 }  // namespace heightlight

@@ -317,7 +317,9 @@ TEST_CASE("what is to be known of a file stands in its sidecar", "[bake]") {
   loaded.warnings = {{"some of it is odd", "no_data -1"}};
   BakeOptions options;
   options.maps = {MaterialMap::height};
-  const std::vector<Warning> warnings = bake_material(loaded, {"m.png"}, options, folder.path(), "m");
+  const std::vector<Warning> warnings =
+      bake_material(loaded, options, {.source = "m.png", .inputs = {}, .folder = folder.path(), .name = "m"})
+          .warnings;
   REQUIRE(warnings.size() == 1);
   CHECK(warnings[0].message == "some of it is odd");
   CHECK(read_sidecar(folder.path())["warnings"] == nlohmann::json::array({"some of it is odd (no_data -1)"}));

@@ -140,7 +140,7 @@ TEST_CASE("dithered levels have the value as their mean, ends stay ends, and a l
   CHECK(encode_texel(encoding, channel_of(-1, 1), 0, 9, 9, 0) == 128);
 }
 
-TEST_CASE("n makes the model exact at the albedo of its fit; eight bits cost little", "[bake]") {
+TEST_CASE("n makes the model exact at the albedo of its fit, and eight bits cost little", "[bake]") {
   Map sky(3, 1);
   sky.values = {0.25F, 0.5F, std::nanf("")};
   const TexelVector total{0.7, 0.8, 0};

@@ -22,6 +22,7 @@ inline std::map<std::string, std::string> folder_contents(const std::filesystem:
     nlohmann::json summary = nlohmann::json::parse(content);
     summary.erase("time_s");
     summary.erase("memory");
+    summary.erase("key");
     summary["map"].erase("path");
     content = summary.dump();
   }

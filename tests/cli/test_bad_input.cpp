@@ -101,7 +101,7 @@ TEST_CASE("bad input gets one line that names it, and leaves no file behind", "[
       Case{"compare map.png -o out --seed -1", 2, "--seed", "whole number"},
       Case{"fit map.png -o out --seed -1", 2, "--seed", "whole number"},
       Case{"simulate map.png -o out --relief ''", 2, "--relief", "empty"},
-      Case{"simulate map.png -o ''", 2, "-o", "empty"},
+      Case{"simulate map.png -o ''", 2, "-o", "empty"}, Case{"--versio", 2, "--versio", "before a command"},
       Case{"bake map.png -o out --maps=", 2, "--maps", "empty"},
       Case{"simulate '' -o out", 2, "argument", "empty"}, Case{"info ''", 2, "argument", "empty"},
       Case{"dataset '' -o out", 2, "argument", "empty"}, Case{"fit '' -o out", 2, "argument", "empty"},

@@ -36,9 +36,10 @@ TEST_CASE("what is wrong with the request is told once, before any map", "[cli][
   const ScratchFolder folder;
   REQUIRE(run_command("synth brick -o a.png --size 16", folder).exit_code == 0);
   fs::copy_file(folder / "a.png", folder / "b.png");
-  const std::string wrong = GENERATE("--relief -1", "--width 0", "--texel 0x1", "--max-distance x",
-                                     "--albedo 2", "--max-distance 1e40", "--width 1e-40", "--no-data nan",
-                                     "--falloff sqrt", "--albedo absent.png");
+  const std::string wrong =
+      GENERATE("--relief -1", "--width 0", "--texel 0x1", "--max-distance x", "--albedo 2",
+               "--max-distance 1e40", "--shrink 0", "--albedo '#123'", "--maps ao,", "--width 1e-40",
+               "--no-data nan", "--falloff sqrt", "--albedo absent.png");
   const CommandResult run = run_command("bake a.png b.png -o out " + wrong, folder);
   INFO(wrong << "\n" << run.error);
   CHECK(run.exit_code == (wrong == "--albedo absent.png" ? 1 : 2));
@@ -76,7 +77,7 @@ TEST_CASE("of a material's folder only the heights are baked, unless a pattern s
   const CommandResult run = run_command("bake m -o out --maps normal --quiet", folder);
   INFO(run.error);
   CHECK(run.exit_code == 0);
-  CHECK_THAT(run.error, Contains("4 files are by their names no heights") && Contains("--pattern"));
+  CHECK_THAT(run.error, Contains("4 files are no heights by their names") && Contains("--pattern"));
   CHECK(fs::exists(folder / "out/Rock003_2K_Displacement_normal.png"));
   CHECK(fs::exists(folder / "out/plaster_normal.png"));
   CHECK_FALSE(fs::exists(folder / "out/Rock003_2K_Color_normal.png"));

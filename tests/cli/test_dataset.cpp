@@ -184,8 +184,8 @@ TEST_CASE("a second process in the same dataset is refused", "[cli][dataset]") {
 TEST_CASE("a wrong manifest is refused with file and place", "[cli][dataset]") {
   const auto [manifest, place] = GENERATE(
       std::pair{"", "study.json: is empty"}, std::pair{"{", "study.json: parse error at line 1, column 2"},
-      std::pair{"\xff\xfe", "study.json: parse error"}, std::pair{"[]", "study.json: /: must be an object"},
-      std::pair{"{}", "study.json: /: needs \"maps\""},
+      std::pair{"\xff\xfe", "study.json: is text in UTF-16"},
+      std::pair{"[]", "study.json: /: must be an object"}, std::pair{"{}", "study.json: /: needs \"maps\""},
       std::pair{R"({"maps": []})", "study.json: /maps: must be a list with something in it"},
       std::pair{R"({"maps": [{"shape": "brick"}], "maps": [{"shape": "brick"}]})", "\"maps\" stands twice"},
       std::pair{R"({"maps": [{"shape": "brick"}], "relief": [1]})", "/: there is no \"relief\" here"},

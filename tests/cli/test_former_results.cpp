@@ -73,16 +73,60 @@ TEST_CASE("fit refuses curves and bounces of different runs", "[cli][fit]") {
   CHECK_FALSE(fs::exists(folder / "out"));
 }
 
-TEST_CASE("maps of an earlier bake that the next does not make go away with it", "[cli][bake]") {
+TEST_CASE("maps of an earlier bake stay beside new ones of the same heights, and go away with others",
+          "[cli][bake]") {
   const ScratchFolder folder;
   REQUIRE(run_command("synth brick -o a.png --size 24", folder).exit_code == 0);
-  REQUIRE(run_command("bake a.png -o o --maps ao,normal --azimuths 4 --quiet", folder).exit_code == 0);
+  const auto bake = [&](const std::string& options) {
+    return run_command("bake a.png -o o --azimuths 4 --maps " + options, folder);
+  };
+  REQUIRE(bake("ao,normal").exit_code == 0);
   write_text(folder / "o/a_height.png", "the user's own");
-  REQUIRE(run_command("bake a.png -o o --maps ao --format tif --azimuths 4 --quiet", folder).exit_code == 0);
+  REQUIRE(bake("bent-normal").exit_code == 0);
+  CHECK(fs::exists(folder / "o/a_ao.png"));
+  const auto sidecar = nlohmann::json::parse(read_text(folder / "o/a_bake.json"));
+  REQUIRE(sidecar["files"].size() == 3);
+  CHECK(sidecar["files"][1]["file"] == "a_ao.png");
+  CHECK(sidecar["files"][1]["earlier"] == true);
+  const CommandResult other = bake("bent-normal --relief 0.05");
+  CHECK_THAT(other.out, Contains("removed") && Contains("a_ao.png, a_normal.png"));
   CHECK_FALSE(fs::exists(folder / "o/a_ao.png"));
-  CHECK_FALSE(fs::exists(folder / "o/a_normal.png"));
-  CHECK(fs::exists(folder / "o/a_ao.tif"));
+  CHECK(fs::exists(folder / "o/a_bent-normal.png"));
   CHECK(fs::exists(folder / "o/a_height.png"));
+}
+
+TEST_CASE("what goes away is only what a record of that very result lists, as it was, and nobody's input",
+          "[cli][bake]") {
+  const ScratchFolder folder;
+  REQUIRE(run_command("synth brick -o a.png --size 24", folder).exit_code == 0);
+  REQUIRE(run_command("synth fbm -o b.png --size 24", folder).exit_code == 0);
+  REQUIRE(run_command("bake a.png -o . --azimuths 4 --maps ao,height", folder).exit_code == 0);
+  // Maps made before are inputs of this batch.
+  REQUIRE(run_command("bake a.png a_height.png a_ao.png b.png -o . --azimuths 4 --maps normal --relief 0.3",
+                      folder)
+              .exit_code == 0);
+  CHECK(fs::exists(folder / "a_height.png"));
+  CHECK(fs::exists(folder / "a_ao.png"));
+  // A sidecar that was copied speaks of another map's files.
+  REQUIRE(run_command("bake a.png -o o --azimuths 4 --maps ao", folder).exit_code == 0);
+  fs::copy_file(folder / "o/a_bake.json", folder / "o/b_bake.json");
+  REQUIRE(run_command("bake b.png -o o --azimuths 4 --maps normal", folder).exit_code == 0);
+  CHECK(fs::exists(folder / "o/a_ao.png"));
+  // An edit of the same size is an edit.
+  std::string bytes = read_text(folder / "o/a_ao.png");
+  bytes.back() = static_cast<char>(bytes.back() ^ 1);
+  write_text(folder / "o/a_ao.png", bytes);
+  REQUIRE(run_command("bake a.png -o o --azimuths 4 --maps normal --relief 0.05", folder).exit_code == 0);
+  CHECK(fs::exists(folder / "o/a_ao.png"));
+  // Names out of the folder, or that no such result has, are nobody's to remove.
+  write_text(folder / "notes.txt", "mine");
+  fs::create_directory(folder / "s");
+  write_text(folder / "s/summary.json",
+             R"({"files": [{"file": "../notes.txt", "bytes": 4}, {"file": "diary.txt", "bytes": 0}]})");
+  write_text(folder / "s/diary.txt", "");
+  simulate_into(folder, "a.png -o s");
+  CHECK(fs::exists(folder / "notes.txt"));
+  CHECK(fs::exists(folder / "s/diary.txt"));
 }
 
 TEST_CASE("fit takes a dataset's table as it is, with what its runs left", "[cli][fit][dataset]") {
@@ -114,7 +158,7 @@ TEST_CASE("a run of a dataset counts only as it was written", "[cli][dataset]") 
   const std::string table = read_text(folder / "study/dataset.csv");
   const fs::path run = fs::directory_iterator(folder / "study/runs")->path();
   const std::string name = GENERATE("curves.csv", "height.png", "sky_view_factor.exr", "summary.json");
-  const std::string damage = GENERATE("empty", "cut", "digit", "gone", "deep");
+  const std::string damage = GENERATE("empty", "cut", "digit", "gone", "deep", "foreign", "wrong type");
   CAPTURE(name, damage);
   std::string bytes = read_text(run / name);
   const std::string right = bytes;
@@ -122,6 +166,14 @@ TEST_CASE("a run of a dataset counts only as it was written", "[cli][dataset]") 
   if (damage == "cut") bytes.resize(bytes.size() / 2);
   if (damage == "empty") bytes.clear();
   if (damage == "deep") bytes = std::string(300'000, '[');
+  if (damage == "wrong type") bytes = R"({"key": 3, "map": 3, "files": []})";
+  if (damage == "foreign") {
+    REQUIRE(run_command("synth fbm -o f.png --size 16", folder).exit_code == 0);
+    simulate_into(folder, "f.png -o foreign");
+    for (const auto& entry : fs::directory_iterator(folder / "foreign"))
+      fs::copy_file(entry.path(), run / entry.path().filename(), fs::copy_options::overwrite_existing);
+    bytes = read_text(run / name);
+  }
   write_text(run / name, bytes);
   if (damage == "gone") fs::remove(run / name);
   const CommandResult again = make();

@@ -56,7 +56,6 @@ const std::vector<Use>& uses() {
         {"dataset's manifest", Kind::manifest, {"dataset", "IN", "-o", "OUT"}, "dataset.json"}};
     for (Use& use : made) {
       for (const std::string& word : kQuick) {
-        if (use.kind == Kind::manifest && word == "--seed") continue;
         use.arguments.push_back(word);
       }
     }

@@ -73,7 +73,7 @@ TEST_CASE("a limit on the size of files is told, and leaves nothing", "[cli]") {
   CHECK_THAT(command.error_output(), Contains("cannot be written: File too large"));
 }
 
-TEST_CASE("SIGHUP ends it as SIGINT does; what the parent ignores does not", "[cli]") {
+TEST_CASE("SIGHUP ends it as SIGINT does, what the parent ignores does not", "[cli]") {
   const ScratchFolder folder;
   write_small_map(folder / "map.png", 64);
   const auto before = entries_below(folder.path());

@@ -104,7 +104,7 @@ TEST_CASE("Small relief on a large offset keeps its digits", "[files]") {
   CHECK(map.base == 1000000.0001);
 }
 
-TEST_CASE("A grid brings its own spacing and stands alone; its rows keep their proportion under --width",
+TEST_CASE("A grid brings its own spacing and stands alone, and its rows keep their proportion under --width",
           "[files]") {
   const ScratchFolder scratch;
   const fs::path path = write_text(scratch / "grid.asc", "ncols 2\nnrows 3\ndx 10\ndy 20\n1 2\n3 4\n5 6\n");

@@ -20,13 +20,17 @@ LoadedHeightmap load_png(const ScratchFolder& scratch, const std::string& bytes)
 
 }  // namespace
 
-TEST_CASE("a wrong checksum of what says nothing of samples is told; of samples it is damage", "[files]") {
+TEST_CASE("a wrong checksum of what says nothing of samples is told, of samples it is damage", "[files]") {
   const ScratchFolder scratch;
   const LoadedHeightmap loaded =
       load_png(scratch, small_png(png_chunk("tEXt", std::string("Title\0x", 7), false)));
   CHECK(loaded.facts.highest == 40);
   REQUIRE_FALSE(loaded.warnings.empty());
   CHECK_THAT(loaded.warnings.back().message, Contains("tEXt") && Contains("checksum"));
+  std::string many;
+  for (int i = 0; i < 1000; ++i) many += png_chunk("tEXt", std::string("Title\0x", 7), false);
+  CHECK(load_png(scratch, small_png(many)).warnings.size() == loaded.warnings.size());
+  CHECK_THROWS_WITH(load_png(scratch, small_png(png_chunk("tRNS", "abc"))), Contains("tRNS"));
   CHECK_THROWS_WITH(load_png(scratch, small_png(png_chunk("tRNS", std::string("\0\x0a", 2), false))),
                     Contains("p.png") && Contains("damaged") && Contains("tRNS"));
   const std::string header = kPngSignature + png_header(2, 2);
@@ -48,7 +52,7 @@ TEST_CASE("transparent samples are missing", "[files]") {
   const LoadedHeightmap by_chunk = load_png(scratch, small_png(png_chunk("tRNS", std::string("\0\x14", 2))));
   CHECK(count_missing(by_chunk.map) == 1);
   CHECK(by_chunk.facts.levels == 3);
-  CHECK_THAT(by_chunk.warnings.back().message, Contains("1 samples are transparent"));
+  CHECK_THAT(by_chunk.warnings.back().message, Contains("1 of its samples are transparent"));
   const auto with_alpha = [](const std::string& rows) {
     return kPngSignature + png_header(2, 2, 4) + png_chunk("IDAT", deflated(rows)) + png_chunk("IEND", "");
   };

@@ -33,7 +33,7 @@ TEST_CASE("normals wrap when tiling", "[surface]") {
   CHECK(surface.normal(0, 1).x == Approx(slope / std::hypot(1, slope)));
 }
 
-TEST_CASE("beside a missing sample the slope is one-sided; a lone sample is level", "[surface]") {
+TEST_CASE("beside a missing sample the slope is one-sided, and a lone sample is level", "[surface]") {
   const float hole = std::nanf("");
   Heightmap map = make_map(3, 1, Boundary::open, [](int, int column) { return 0.5 * column; });
   map.spacing = {1, 1};

@@ -8,6 +8,7 @@
 
 #include "bake/baked_map.h"
 #include "bake/blue_noise.h"
+#include "bake/former_bake.h"
 #include "bake/sidecar.h"
 #include "bake/texel_encoding.h"
 #include "base/parallel.h"
@@ -154,20 +155,23 @@ void check_bake_options(const BakeOptions& options) {
   }
 }
 
-std::vector<Warning> bake_material(LoadedHeightmap loaded, const std::vector<std::filesystem::path>& inputs,
-                                   const BakeOptions& options, const std::filesystem::path& folder,
-                                   const std::string& name) {
+BakeOutcome bake_material(LoadedHeightmap loaded, const BakeOptions& options, const BakeTarget& target) {
   check_bake_options(options);
-  const std::vector<std::string> files = baked_files(name, options);
-  StagedFolder staged(folder, inputs, files, files.back());
+  const std::vector<std::string> files = baked_files(target.name, options);
+  nlohmann::ordered_json former = find_former_maps(target.folder / files.back(), options.surface, files);
+  const bool same_heights = !former.empty();
+  StagedFolder staged(
+      target.folder, target.inputs, files,
+      same_heights ? FormerRecord{} : FormerRecord{.file = files.back(), .prefix = target.name + "_"});
   const Surface surface = build_surface(std::move(loaded.map));
   const Material material = find_material(surface, options);
   const std::vector<BakedTexture> textures = baked_textures(material, options);
   const TexelEncoding encoding = make_encoding(options);
   Stopwatch watch;
   SidecarFacts facts{
-      .source = inputs[0],
+      .source = target.source,
       .facts = loaded.facts,
+      .former = std::move(former),
       .warnings = find_warnings(std::move(loaded.warnings), surface.map, material.results.evidence, options)};
   std::vector<std::filesystem::path> paths;
   for (std::size_t i = 0; i < textures.size(); ++i) {
@@ -182,8 +186,7 @@ std::vector<Warning> bake_material(LoadedHeightmap loaded, const std::vector<std
   if (is_wanted(options, MaterialMap::ao_n)) write_shaders(staged);
   facts.output_seconds = watch.lap();
   write_sidecar(staged.file(files.back()), options, material, textures, facts);
-  staged.commit();
-  return facts.warnings;
+  return {.warnings = std::move(facts.warnings), .removed = staged.commit()};
 }
 
 }  // namespace heightlight

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "files/staged_output.h"
 #include "heightlight/files.h"
 #include "heightlight/transport.h"
 #include "heightlight/visibility.h"
@@ -67,21 +68,32 @@ struct BakeOptions {
   std::uint64_t seed = 1;        ///< of pilot, check and dither
   std::uint64_t memory = ~0ULL;  ///< bytes that all of it may take
   Watch watch = {};              ///< of the solution
-  std::string request = {};      ///< what was asked for, as the asker knows it again; kept in the sidecar
+  std::string request = {};      ///< what was asked for, as the asker knows it again; stands in the sidecar
+  std::string surface = {};      ///< likewise the heights alone: earlier maps of the same ones stay
 };
 
 /// Names of all files that baking writes for a map of that name, the sidecar last.
 std::vector<std::string> baked_files(const std::string& name, const BakeOptions& options);
 
-/// Makes the maps of a heightmap and writes them into `folder` as NAME_ao.png …, with NAME_bake.json, which
-/// says what each file holds, how it was found and what it errs by; all or none. One visibility pass serves
-/// all of them (two where both a reach and bounces are wanted; toward the azimuths of horizon maps more).
-/// `inputs` are the files that it was read from, the heightmap first, none of which is replaced. Returns
-/// warnings. Throws UsageError for options that contradict each other, Error when it can't be
-/// done.
-std::vector<Warning> bake_material(LoadedHeightmap loaded, const std::vector<std::filesystem::path>& inputs,
-                                   const BakeOptions& options, const std::filesystem::path& folder,
-                                   const std::string& name);
+/// Where what is baked goes, and what it is called.
+struct BakeTarget {
+  std::filesystem::path source;  ///< the heightmap's file, for the sidecar
+  InputGuard inputs;             ///< that it was baked from, or others will be
+  std::filesystem::path folder;
+  std::string name;  ///< what the files' names begin with
+};
+
+/// What a user should be told of a bake.
+struct BakeOutcome {
+  std::vector<Warning> warnings;
+  std::vector<std::string> removed;  ///< maps of an earlier bake of that name, of other heights
+};
+
+/// Makes the maps of a heightmap and writes them as NAME_ao.png …, with NAME_bake.json, which says what each
+/// file holds, how it was found and what it errs by; all or none. One visibility pass serves all of them (two
+/// where both a reach and bounces are wanted; toward the azimuths of horizon maps more). No input is
+/// replaced. Throws UsageError for options that contradict each other, Error when it can't be done.
+BakeOutcome bake_material(LoadedHeightmap loaded, const BakeOptions& options, const BakeTarget& target);
 
 /// Throws UsageError, naming the option, for what no map can be baked with.
 void check_bake_options(const BakeOptions& options);

@@ -124,8 +124,10 @@ void write_sidecar(const std::filesystem::path& path, const BakeOptions& options
   Json json;
   json["version"] = HEIGHTLIGHT_VERSION;
   if (!options.request.empty()) json["request"] = options.request;
+  if (!options.surface.empty()) json["surface"] = options.surface;
   json["map"] = describe_map(facts.source, facts.facts.sha256, *material.surface);
   json["files"] = describe_textures(options, textures, facts.files);
+  for (const Json& entry : facts.former) json["files"].push_back(entry);
   json["conventions"] = describe_conventions(options);
   json["reach"] = describe_reach(options);
   if (is_wanted(options, MaterialMap::multibounce)) {

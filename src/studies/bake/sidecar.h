@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@ struct SidecarFacts {
   std::filesystem::path source;
   SourceFacts facts;
   std::vector<FileRecord> files = {};  ///< the textures, in their order
+  nlohmann::ordered_json former = {};  ///< entries for maps of an earlier bake that stay
   std::vector<Warning> warnings;
   double output_seconds = 0;  ///< that writing the textures took
 };

@@ -31,7 +31,9 @@ void write_reference(std::FILE* file, const ReportInput& input) {
   fmt::print(file, "{} × {} texels of {:g} × {:g}, relief {:g}, boundary {}.\n\n", surface.width(),
              surface.height(), surface.map.spacing.x, surface.map.spacing.y, relief(surface.map),
              to_string(surface.map.boundary));
-  fmt::print(file, "## The reference\n\n");
+  for (const Warning& warning : input.warnings)
+    fmt::print(file, "* Warning: {}\n", as_markdown(warning.message));
+  fmt::print(file, "{}## The reference\n\n", input.warnings.empty() ? "" : "\n");
   fmt::print(
       file,
       "A and bent normals: exact walks along {} azimuths from every texel ({:.3g} core-seconds). On {} "

@@ -2,8 +2,10 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "comparison/compare_methods.h"
+#include "heightlight/files.h"
 
 namespace heightlight {
 
@@ -14,11 +16,12 @@ struct ReportInput {
   const ComparisonReference& reference;
   const Comparison& comparison;
   Cost depth_cost;  ///< of the depth buffer, which screen-space methods are given
+  const std::vector<Warning>& warnings;
 };
 
-/// Writes a page of Markdown: the reference and what it errs by, the cheapest method for each error and
-/// quantity, what each method that is shown errs by, and what the closed forms add. Throws Error naming the
-/// file.
+/// Writes a page of Markdown: warnings, the reference and what it errs by, the cheapest method for each error
+/// and quantity, what each method that is shown errs by, and what the closed forms add. Throws Error naming
+/// the file.
 void write_report(const std::filesystem::path& path, const ReportInput& input);
 
 }  // namespace heightlight

@@ -18,20 +18,21 @@ std::string material_of(std::string name) {
   return letters == std::string::npos ? name : name.substr(0, letters + 1);
 }
 
-const BounceCurves& find_kind(const std::filesystem::path& path, const std::vector<BounceCurves>& curves,
+/// `where` names the file, and the run where it has many.
+const BounceCurves& find_kind(const std::string& where, const std::vector<BounceCurves>& curves,
                               AoKind kind) {
   for (const BounceCurves& one : curves) {
     if (one.kind != kind) continue;
     if (one.filled.front().bounces.size() < 2) {
-      throw Error(path.string() + ": holds no bounce after the direct irradiance");
+      throw Error(where + ": holds no bounce after the direct irradiance");
     }
     if (one.filled.size() < kFewestBins) {
-      throw Error(path.string() + ": only " + std::to_string(one.filled.size()) + " bins of " +
-                  to_string(kind) + " are filled; a fit takes " + std::to_string(kFewestBins));
+      throw Error(where + ": only " + std::to_string(one.filled.size()) + " bins of " + to_string(kind) +
+                  " are filled; a fit takes " + std::to_string(kFewestBins));
     }
     return one;
   }
-  throw Error(path.string() + ": holds no curves over " + to_string(kind));
+  throw Error(where + ": holds no curves over " + to_string(kind));
 }
 
 /// Every k-th row and column, k the least that leaves no more than kMostTexels.
@@ -98,8 +99,9 @@ std::vector<JudgedMap> read_judged_maps(const std::filesystem::path& curves_csv,
     map.name = !run.run.empty() ? run.run
                : is_curves      ? path.parent_path().filename().string()
                                 : path.stem().string();
-    map.over_alpha = find_kind(curves_csv, run.curves, AoKind::ambient_occlusion);
-    map.over_sky = find_kind(curves_csv, run.curves, AoKind::sky_view_factor);
+    const std::string where = curves_csv.string() + (run.run.empty() ? "" : ", run " + run.run);
+    map.over_alpha = find_kind(where, run.curves, AoKind::ambient_occlusion);
+    map.over_sky = find_kind(where, run.curves, AoKind::sky_view_factor);
     map.material = material_of(run.map.empty() ? map.name : run.map);
     add_rest_of_run(run.run.empty() ? path : path.parent_path() / "runs" / run.run / "curves.csv",
                     memory_limit, map);

@@ -3,6 +3,7 @@
 #include <gnuplot-iostream.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -94,6 +95,9 @@ class GnuplotProcess {
       prctl(PR_SET_PDEATHSIG, SIGKILL);
       if (getppid() != parent) _exit(1);  // it ended before
       for (const int ignored : {SIGXFSZ, SIGPIPE}) std::signal(ignored, SIG_DFL);
+      constexpr rlim_t kLargestPicture = 256 << 20;
+      const rlimit most{kLargestPicture, kLargestPicture};
+      setrlimit(RLIMIT_FSIZE, &most);  // of what it may leave in memory
       const bool ready = dup2(input.descriptor(), STDIN_FILENO) >= 0 &&
                          dup2(output.descriptor(), STDOUT_FILENO) >= 0 &&
                          dup2(messages.descriptor(), STDERR_FILENO) >= 0;
@@ -132,8 +136,9 @@ class GnuplotProcess {
         return;
       }
       const bool is_late = std::chrono::steady_clock::now() > late;
-      if (is_late || noted_signal() != 0) end();
-      throw_if_interrupted();
+      const bool is_stopped = noted_signal() != 0;
+      if (is_late || is_stopped) end();
+      if (is_stopped) throw Cancelled();
       if (is_late) throw gnuplot_error("which did not end within a minute");
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
@@ -158,11 +163,6 @@ std::string last_line(const std::string& text) {
   return text.substr(before == std::string::npos ? 0 : before + 1, end - before);
 }
 
-/// As the terminals svg and pngcairo begin.
-bool is_picture(const std::string& output) {
-  return output.starts_with("<?xml") || output.starts_with("\x89PNG");
-}
-
 }  // namespace
 
 std::string gnuplot_fault() {
@@ -185,7 +185,11 @@ GnuplotResult run_gnuplot(const std::function<void(gnuplotio::Gnuplot&)>& write_
   {
     const int copy = dup(input.descriptor());  // closed by the stream
     std::FILE* stream = copy < 0 ? nullptr : fdopen(copy, "w");
-    if (!stream) throw gnuplot_error("and a file to talk with it: " + system_message(errno));
+    if (!stream) {
+      const int error_number = errno;
+      if (copy >= 0) close(copy);
+      throw gnuplot_error("and a file to talk with it: " + system_message(error_number));
+    }
     gnuplotio::Gnuplot script(stream);
     write_script(script);
   }
@@ -195,7 +199,7 @@ GnuplotResult run_gnuplot(const std::function<void(gnuplotio::Gnuplot&)>& write_
   throw_if_interrupted();  // the signal may have reached gnuplot too
   GnuplotResult result{output.read_all(), messages.read_all()};
   if (process.status() != 0) throw gnuplot_error("which failed: " + last_line(result.messages));
-  if (!is_picture(result.output)) throw gnuplot_error("which drew nothing: " + last_line(result.messages));
+  if (result.output.empty()) throw gnuplot_error("which drew nothing: " + last_line(result.messages));
   return result;
 }
 
