@@ -103,7 +103,8 @@ struct GtaoOptions {
   bool bent_normal = false;     ///< algorithm 2
 };
 
-/// Throws UsageError for options outside their range.
+/// Beside its A, which is the paper's, α from the same horizons: what the forms of α are fed. Throws
+/// UsageError for options outside their range.
 ScreenSpaceView gtao(const DepthBuffer& depth, const GtaoOptions& options);
 
 /// GTAO, and along the same horizons one bounce gathered: a sample that raises the horizon from m to m' is

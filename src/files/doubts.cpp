@@ -71,49 +71,54 @@ void doubt_relief(const Heightmap& map, const StoredHeights& stored, const LoadO
   }
 }
 
-/// Whether lines of the map go up and down in single levels, with plateaus between: neither a map that is
-/// flat along one axis, nor one so steep that hardly two neighbours are alike.
+/// Whether lines of the map go up and down in single levels, with plateaus between: unlike a map that is flat
+/// along one axis, one so steep that hardly two neighbours are alike, or one with ramps between plains.
 class Terraces {
  public:
   explicit Terraces(double step) : step_(step) {}
 
+  void begin_line() { last_was_level_ = false; }
+
   void add(float from, float to) {
     const double rise = std::abs(double{to} - double{from});
-    if (std::isnan(rise)) return;
-    ++steps_;
-    if (rise == 0) {
-      ++level_;
-    } else if (rise < 1.5 * step_) {
-      ++single_;
+    const bool is_level = rise == 0;
+    if (rise > 0) {
+      ++rises_;
+      if (rise < 1.5 * step_ && last_was_level_) ++from_plateau_;
     }
+    last_was_level_ = is_level;
   }
 
-  bool found() const {
-    const double flat = static_cast<double>(level_) / static_cast<double>(std::max<std::size_t>(1, steps_));
-    return flat > 0.1 && flat < 0.98 && 2 * single_ > steps_ - level_;
-  }
+  bool found() const { return rises_ > 0 && 8 * from_plateau_ > rises_; }
 
  private:
   double step_;
-  std::size_t steps_ = 0;
-  std::size_t level_ = 0;
-  std::size_t single_ = 0;
+  bool last_was_level_ = false;
+  std::size_t rises_ = 0;
+  std::size_t from_plateau_ = 0;  ///< rises of a single level, from a plateau
 };
 
+/// Looks along some 256 lines each way.
+bool has_terraces(const Image<float>& h, double step) {
+  constexpr int kLines = 256;
+  Terraces across(step);
+  Terraces down(step);
+  for (int row = 0; row < h.height; row += std::max(1, h.height / kLines)) {
+    across.begin_line();
+    for (int column = 1; column < h.width; ++column) across.add(h(row, column - 1), h(row, column));
+  }
+  for (int column = 0; column < h.width; column += std::max(1, h.width / kLines)) {
+    down.begin_line();
+    for (int row = 1; row < h.height; ++row) down.add(h(row - 1, column), h(row, column));
+  }
+  return across.found() || down.found();
+}
+
 void doubt_levels(const Heightmap& map, const SourceFacts& facts, std::vector<Warning>& warnings) {
-  constexpr std::size_t kFewest = 8;  // of fewer, terraces are what is meant
+  constexpr std::size_t kFewest = 16;  // of fewer, terraces are what is meant
   if (!facts.is_integer || facts.levels < kFewest || facts.level_step == 0) return;
   const double terrace = facts.level_step / (facts.highest - facts.lowest) * relief(map);
-  const Image<float>& h = map.height;
-  Terraces across(terrace);
-  Terraces down(terrace);
-  for (int row = 0; row < h.height; ++row) {
-    for (int column = 0; column < h.width; ++column) {
-      if (column > 0) across.add(h(row, column - 1), h(row, column));
-      if (row > 0) down.add(h(row - 1, column), h(row, column));
-    }
-  }
-  if (!across.found() && !down.found()) return;
+  if (!has_terraces(map.height, terrace)) return;
   warnings.push_back(
       {fmt::format("only {} levels: slopes are terraces {:.2g} high, which show as contour "
                    "lines; use the original of more bits or of floats, or smooth the heights",

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -21,6 +22,7 @@ namespace heightlight {
 struct ProcessEnd {
   int exit_code = -1;  ///< -1: by a signal
   int signal = 0;
+  double peak_mebibytes = 0;  ///< of memory
 };
 
 /// `heightlight ARGUMENTS…` in a folder, while it runs. What it prints goes to files outside that folder.
@@ -59,10 +61,12 @@ class RunningCommand {
 
   ProcessEnd wait() {
     int status = 0;
-    waitpid(process_, &status, 0);
+    rusage usage{};
+    wait4(process_, &status, 0, &usage);
     process_ = 0;
-    if (WIFEXITED(status)) return {WEXITSTATUS(status), 0};
-    return {-1, WTERMSIG(status)};
+    const double peak = static_cast<double>(usage.ru_maxrss) / 1024;
+    if (WIFEXITED(status)) return {WEXITSTATUS(status), 0, peak};
+    return {-1, WTERMSIG(status), peak};
   }
 
   /// Lets it run for a while, then sends the signal and waits.

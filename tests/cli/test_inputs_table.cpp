@@ -131,7 +131,8 @@ TEST_CASE("every command reads every kind of input by a name that is no UTF-8, a
     INFO(use.name << "\n" << error);
     CHECK(end.exit_code == 0);
     CHECK(has_only_warnings(error));
-    if (!use.result.empty()) CHECK_FALSE(fs::is_empty(inputs.folder / "out"));
+    if (!use.result.empty() && use.name != std::string("bake's map"))  // whose results have its name
+      CHECK(fs::exists(inputs.folder / "out" / use.result));
     fs::remove_all(inputs.folder / "out");
     fs::remove_all(inputs.folder / input);
   }

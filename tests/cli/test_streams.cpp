@@ -28,7 +28,9 @@ int run_line(const ScratchFolder& folder, std::string line) {
 
 /// Until the command is at work: beside its map there is something.
 void wait_until_at_work(const ScratchFolder& folder) {
-  while (folder.entry_count() < 2) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  for (int i = 0; i < 60000 && folder.entry_count() < 2; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  REQUIRE(folder.entry_count() >= 2);
 }
 
 const std::vector<std::string> kLong{"simulate", "map.png", "-o", "out", "--rays", "65536", "--quiet"};
@@ -88,6 +90,7 @@ TEST_CASE("SIGHUP ends it as SIGINT does, what the parent ignores does not", "[c
   RunningCommand command({"simulate", "map.png", "-o", "out", "--rays", "2000", "--quiet"}, folder.path(),
                          [&] { std::signal(ignored, SIG_IGN); });
   wait_until_at_work(folder);
+  REQUIRE_FALSE(fs::exists(folder / "out"));  // it is at work
   command.send(ignored);
   CHECK(command.wait().exit_code == 0);
   CHECK(fs::exists(folder / "out/summary.json"));

@@ -121,7 +121,7 @@ TEST_CASE("whatever --memory allows, simulate does it or says how much it needs"
   CHECK_THAT(command.error_output(), Catch::Contains("--memory"));
 }
 
-#ifndef __SANITIZE_ADDRESS__  // which takes more addresses than any limit leaves
+#ifndef HEIGHTLIGHT_SANITIZED  // which takes more addresses than any limit leaves
 void limit_addresses(rlim_t mebibytes) {
   const rlimit limit{mebibytes << 20, mebibytes << 20};
   setrlimit(RLIMIT_AS, &limit);

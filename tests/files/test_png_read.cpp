@@ -66,16 +66,6 @@ TEST_CASE("transparent samples are missing", "[files]") {
   CHECK_THAT(all.warnings.back().message, Contains("alpha"));
 }
 
-TEST_CASE("what a small PNG would inflate to takes no memory", "[files]") {
-  const ScratchFolder scratch;
-  // 64 MiB of zeros where six bytes belong; were they kept, the limit on addresses of sanitizers or patience
-  // would tell, and the library's tests of memory do (tests/cli).
-  const std::string bomb =
-      kPngSignature + png_header(2, 2) + png_chunk("IDAT", deflated_zeros(64 << 20)) + png_chunk("IEND", "");
-  REQUIRE(bomb.size() < 100'000);
-  CHECK(load_png(scratch, bomb).facts.highest == 0);
-}
-
 TEST_CASE("heights in the digits of colours are told apart from pictures", "[files]") {
   const ScratchFolder scratch;
   const auto rgb = [&](auto&& colour_at) {

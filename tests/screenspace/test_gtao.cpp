@@ -25,6 +25,7 @@ std::vector<GtaoSums> sum_rows(GtaoRow kernel, const GtaoPass& pass) {
     const auto width = static_cast<std::size_t>(pass.depth.width);
     rows[row] = {std::vector<float>(width),
                  std::vector<float>(width),
+                 std::vector<float>(width),
                  {std::vector<float>(width), std::vector<float>(width), std::vector<float>(width)}};
     kernel(pass, static_cast<int>(row), rows[row]);
   }
@@ -91,12 +92,13 @@ TEST_CASE("GTAO's lanes and its scalar twin agree on every instruction set", "[s
         if (!std::isnan(surface.map.height(static_cast<int>(row), column))) continue;
         for (const std::vector<GtaoSums>* rows : {&lanes, &twin}) {  // missing receivers hold no answer
           auto& sums = const_cast<GtaoSums&>((*rows)[row]);
-          for (auto* part : {&sums.sky, &sums.open, &sums.bent[0], &sums.bent[1], &sums.bent[2]})
+          for (auto* part : {&sums.sky, &sums.open, &sums.solid, &sums.bent[0], &sums.bent[1], &sums.bent[2]})
             (*part)[static_cast<std::size_t>(column)] = 0;
         }
       }
       worst = std::max(worst, largest_difference(lanes[row].sky, twin[row].sky));
       worst = std::max(worst, largest_difference(lanes[row].open, twin[row].open));
+      worst = std::max(worst, largest_difference(lanes[row].solid, twin[row].solid));
       for (std::size_t i = 0; i < 3; ++i) {
         worst = std::max(worst, largest_difference(lanes[row].bent[i], twin[row].bent[i]));
       }

@@ -2,6 +2,7 @@
 // leaves over at the row's ends.
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "screenspace/bilateral_gather.h"
@@ -33,7 +34,7 @@ std::array<int, kWindow> window_rows(const DepthBuffer& depth, int row) {
   return rows;
 }
 
-constexpr std::size_t kMostResults = 5;  // two sums and a bent normal
+constexpr std::size_t kMostResults = 6;  // three sums and a bent normal
 
 /// Means of the receivers from `column` on; all of their windows lie inside the row.
 HWY_INLINE void gather_lanes_at(const GatherPass& pass, const std::array<int, kWindow>& rows, int row,
@@ -78,6 +79,7 @@ HWY_INLINE void gather_lanes_at(const GatherPass& pass, const std::array<int, kW
 }
 
 void gather_lanes(const GatherPass& pass, int row, std::vector<Map>& means) {
+  assert(means.size() <= kMostResults);
   const int lanes = static_cast<int>(hn::Lanes(kF));
   const std::array<int, kWindow> rows = window_rows(pass.depth, row);
   const int last = pass.depth.width - kGatherAfter - lanes;  // from where a vector may begin

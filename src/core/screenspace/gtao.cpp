@@ -35,9 +35,9 @@ GtaoPass make_pass(const DepthBuffer& depth, const SliceTables& tables, const Gt
   return pass;
 }
 
-/// The sums of all frames, over what they sum to in the open: A, then what else was asked for.
+/// The sums of all frames, over what they sum to in the open: A, α, then what else was asked for.
 std::vector<Map> trace(const DepthBuffer& depth, const GtaoOptions& options) {
-  const std::size_t results = 1 + (options.divide_by_open ? 1 : 0) + (options.bent_normal ? 3 : 0);
+  const std::size_t results = 2 + (options.divide_by_open ? 1 : 0) + (options.bent_normal ? 3 : 0);
   std::vector<Map> sums(results, Map(depth.width, depth.height));
   const int frames = frame_count(options.noise);
   std::vector<SliceTables> tables;
@@ -50,6 +50,7 @@ std::vector<Map> trace(const DepthBuffer& depth, const GtaoOptions& options) {
     const auto width = static_cast<std::size_t>(depth.width);
     GtaoSums line;
     line.sky.resize(width);
+    line.solid.resize(width);
     if (options.divide_by_open) line.open.resize(width);
     if (options.bent_normal) {
       for (std::vector<float>& part : line.bent) part.resize(width);
@@ -57,7 +58,7 @@ std::vector<Map> trace(const DepthBuffer& depth, const GtaoOptions& options) {
     for (const SliceTables& frame : tables) gtao_row(make_pass(depth, frame, options), row, line);
     std::size_t result = 0;
     for (const std::vector<float>* from :
-         {&line.sky, &line.open, &line.bent[0], &line.bent[1], &line.bent[2]}) {
+         {&line.sky, &line.solid, &line.open, &line.bent[0], &line.bent[1], &line.bent[2]}) {
       if (from->empty()) continue;
       for (int column = 0; column < depth.width; ++column) {
         sums[result](row, column) = scale * (*from)[static_cast<std::size_t>(column)];
@@ -78,10 +79,13 @@ ScreenSpaceView gtao(const DepthBuffer& depth, const GtaoOptions& options) {
   ScreenSpaceView view;
   view.samples_per_texel = 2.0 * options.slices * options.steps * frame_count(options.noise);
   view.sky_view_factor = std::move(results[0]);
+  view.ambient_occlusion = std::move(results[1]);
   for (std::size_t i = 0; i < view.sky_view_factor.size(); ++i) {
+    const bool missing = std::isnan(depth.row_height.values[i]);
     float& sky = view.sky_view_factor.values[i];
-    if (options.divide_by_open) sky /= results[1].values[i];
-    sky = std::isnan(depth.row_height.values[i]) ? kMissing : std::clamp(sky, 0.0F, 1.0F);
+    if (options.divide_by_open) sky /= results[2].values[i];
+    for (float* share : {&sky, &view.ambient_occlusion.values[i]})
+      *share = missing ? kMissing : std::clamp(*share, 0.0F, 1.0F);
   }
   if (!options.bent_normal) return view;
   const Map* bent = results.data() + results.size() - 3;

@@ -17,9 +17,10 @@
 // the integral of an exact walk's azimuth, and the side of −d has −c. Likewise eqs. 20 and 21 are, with s =
 // sin h and e = 1 − s,
 //     along d:  c e² (2 + s)/3 + n_z cos³h/3,      along z:  c cos³h/3 + n_z e (1 + s + s²)/3.
-// That needs one arc tangent a side, and neither |n̄| nor γ. The clamp of line 27 to the tangent hemisphere is
-// m ≥ m₀ = −c/n_z. The cosine that line 24 takes the maximum of is sin h, which rises with the slope: where
-// nothing attenuates it, the maximum of the slopes serves.
+// The paper knows cosine-weighted AO alone; the plain share of solid angle above the same horizons, α, is the
+// mean of 1 − sin h. That needs one arc tangent a side, and neither |n̄| nor γ. The clamp of line 27 to the
+// tangent hemisphere is m ≥ m₀ = −c/n_z. The cosine that line 24 takes the maximum of is sin h, which rises
+// with the slope: where nothing attenuates it, the maximum of the slopes serves.
 //
 // Read literally, three things in the paper do not hold:
 //   * Line 20, s ← sample/directionSampleCount, makes sample 0 the receiver itself, whose direction is 0/0,
@@ -34,8 +35,9 @@ namespace heightlight {
 
 /// Sums over the slices, per receiver in a row of the map.
 struct GtaoSums {
-  std::vector<float> sky;                  ///< Σ over both sides of twice eq. 9's integrand
-  std::vector<float> open;                 ///< the same of an open hemisphere; empty where not asked for
+  std::vector<float> sky;    ///< Σ over both sides of twice eq. 9's integrand
+  std::vector<float> open;   ///< the same of an open hemisphere; empty where not asked for
+  std::vector<float> solid;  ///< Σ over both sides of 1 − sin h, for α; empty where not asked for
   std::array<std::vector<float>, 3> bent;  ///< Σ of the bent normal's parts; empty where not asked for
 };
 

@@ -49,7 +49,7 @@ float attenuated_slope(const GtaoPass& pass, const std::vector<SliceSample>& sid
 }
 
 struct Side {
-  float sky, along, up;
+  float sky, solid, along, up;
 };
 
 Side integrate_side(float c, float n_z, float m) {
@@ -59,7 +59,7 @@ Side integrate_side(float c, float n_z, float m) {
   const float e = 1 - s;
   const float cubed_cosine = e * e * (2 + s);
   const float mixed = q * cosine;
-  return {c * (kHalfPi - std::atan(m) - m * q) + n_z * q, c * cubed_cosine + n_z * mixed,
+  return {c * (kHalfPi - std::atan(m) - m * q) + n_z * q, e, c * cubed_cosine + n_z * mixed,
           c * mixed + n_z * e * (1 + s + s * s)};
 }
 
@@ -74,6 +74,7 @@ void look_around(const GtaoPass& pass, const Receiver& at, GtaoSums& sums) {
                                           : highest_slope(pass, slice.sides[side], at);
       const Side part = integrate_side(c, at.normal_z, std::max(found, tangent));
       sums.sky[j] += part.sky;
+      if (!sums.solid.empty()) sums.solid[j] += part.solid;
       if (!sums.open.empty()) sums.open[j] += integrate_side(c, at.normal_z, tangent).sky;
       if (sums.bent[0].empty()) continue;
       sums.bent[0][j] += sign * slice.x * part.along;

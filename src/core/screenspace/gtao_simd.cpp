@@ -56,13 +56,20 @@ HWY_INLINE Lanes attenuated_slopes(const GtaoPass& pass, const std::vector<Slice
 }
 
 struct BunchSums {
-  Lanes sky, open;
+  Lanes sky, open, solid;
   std::array<Lanes, 3> bent;
 };
 
+/// What is summed beside A.
+struct WantedSums {
+  bool open = false;
+  bool solid = false;
+  bool bent = false;
+};
+
 /// `x`, `y`: the side's direction.
-HWY_INLINE void add_side(const Lanes& slopes, const Receivers& at, float x, float y, bool with_open,
-                         bool with_bent, BunchSums& sums) {
+HWY_INLINE void add_side(const Lanes& slopes, const Receivers& at, float x, float y, const WantedSums& wanted,
+                         BunchSums& sums) {
   const VF one = hn::Set(kF, 1.0F);
   const VF along_x = hn::Set(kF, x);
   const VF along_y = hn::Set(kF, y);
@@ -71,9 +78,11 @@ HWY_INLINE void add_side(const Lanes& slopes, const Receivers& at, float x, floa
     const VF tangent = hn::MulAdd(at.slope_x[v], along_x, hn::Mul(at.slope_y[v], along_y));
     const VF c = hn::Neg(hn::Mul(n_z, tangent));
     const VF m = hn::Max(slopes[v], tangent);
-    sums.sky[v] = hn::Add(sums.sky[v], slice_irradiance(c, n_z, m));
-    if (with_open) sums.open[v] = hn::Add(sums.open[v], slice_irradiance(c, n_z, tangent));
-    if (!with_bent) continue;
+    const Elevation<VF> horizon = elevation(kF, m);
+    sums.sky[v] = hn::Add(sums.sky[v], slice_irradiance(c, n_z, horizon));
+    if (wanted.solid) sums.solid[v] = hn::Add(sums.solid[v], hn::Sub(one, horizon.sine));
+    if (wanted.open) sums.open[v] = hn::Add(sums.open[v], slice_irradiance(c, n_z, tangent));
+    if (!wanted.bent) continue;
     const VF q = hn::Div(one, hn::MulAdd(m, m, one));
     const VF cosine = hn::Sqrt(q);
     const VF s = hn::Mul(m, cosine);
@@ -90,11 +99,12 @@ HWY_INLINE void add_side(const Lanes& slopes, const Receivers& at, float x, floa
 
 template <int kTaps>
 HWY_INLINE void look_around(const GtaoPass& pass, int row, GtaoSums& sums) {
-  const bool with_open = !sums.open.empty();
-  const bool with_bent = !sums.bent[0].empty();
+  const WantedSums wanted{
+      .open = !sums.open.empty(), .solid = !sums.solid.empty(), .bent = !sums.bent[0].empty()};
   for_receivers(pass.depth, row, [&](const Receivers& at) {
     BunchSums bunch;
-    for (Lanes* lanes : {&bunch.sky, &bunch.open, &bunch.bent[0], &bunch.bent[1], &bunch.bent[2]}) {
+    for (Lanes* lanes :
+         {&bunch.sky, &bunch.open, &bunch.solid, &bunch.bent[0], &bunch.bent[1], &bunch.bent[2]}) {
       for (VF& lane : *lanes) lane = hn::Zero(kF);
     }
     for (const Slice& slice : pass.tables.table(row, at.column % DepthBuffer::kPhases)) {
@@ -102,12 +112,13 @@ HWY_INLINE void look_around(const GtaoPass& pass, int row, GtaoSums& sums) {
         const float sign = side == 0 ? -1.0F : 1.0F;
         const Lanes slopes = pass.attenuated ? attenuated_slopes<kTaps>(pass, slice.sides[side], at)
                                              : highest_slopes<kTaps>(pass, slice.sides[side], at);
-        add_side(slopes, at, sign * slice.x, sign * slice.y, with_open, with_bent, bunch);
+        add_side(slopes, at, sign * slice.x, sign * slice.y, wanted, bunch);
       }
     }
     add_to_row(bunch.sky, at.column, sums.sky);
-    if (with_open) add_to_row(bunch.open, at.column, sums.open);
-    for (std::size_t i = 0; with_bent && i < 3; ++i) add_to_row(bunch.bent[i], at.column, sums.bent[i]);
+    if (wanted.open) add_to_row(bunch.open, at.column, sums.open);
+    if (wanted.solid) add_to_row(bunch.solid, at.column, sums.solid);
+    for (std::size_t i = 0; wanted.bent && i < 3; ++i) add_to_row(bunch.bent[i], at.column, sums.bent[i]);
   });
 }
 

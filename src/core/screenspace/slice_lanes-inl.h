@@ -82,13 +82,15 @@ HWY_INLINE Lanes sample_slopes(const DepthBuffer& depth, const Receivers& at, co
   return slopes;
 }
 
-/// Twice a side's share of irradiance above the slope m (gtao_kernel.h).
-HWY_INLINE VF slice_irradiance(VF c, VF n_z, VF m) {
-  const Elevation<VF> horizon = elevation(kF, m);
+/// Twice a side's share of irradiance above a horizon (gtao_kernel.h).
+HWY_INLINE VF slice_irradiance(VF c, VF n_z, const Elevation<VF>& horizon) {
   const VF q = hn::Mul(horizon.cosine, horizon.cosine);
   const VF zenith = hn::NegMulAdd(horizon.sine, horizon.cosine, horizon.from_zenith);
   return hn::MulAdd(c, zenith, hn::Mul(n_z, q));
 }
+
+/// Likewise above the slope m.
+HWY_INLINE VF slice_irradiance(VF c, VF n_z, VF m) { return slice_irradiance(c, n_z, elevation(kF, m)); }
 
 /// Adds lanes to what stands four columns apart in a row of the map, as far as the row goes.
 HWY_INLINE void add_to_row(const Lanes& lanes, int column, std::vector<float>& row) {
