@@ -94,7 +94,7 @@ std::string explain_unread(const std::filesystem::path& path, std::string_view h
     if (kind.bytes.size() == 2 && kind.bytes == "BM" && head.size() < 54) continue;  // a whole header
     return std::string("is ") + kind.what + "; " + kind.remedy;
   }
-  if (head.starts_with("RIFF") && head.substr(8).starts_with("WEBP"))
+  if (head.size() >= 12 && head.starts_with("RIFF") && head.substr(8, 4) == "WEBP")
     return std::string("is a WebP image, of 8 bits at most; ") + kConvert;
   if (is_named_raw(path))
     return std::string("holds raw samples, without a header that gives their size and type; ") + kConvert;

@@ -6,10 +6,12 @@
 #include <cstring>
 #include <system_error>
 
+#include "files/printable.h"
+
 namespace heightlight {
 
 Error file_error(const std::filesystem::path& path, const std::string& fault, const std::string& remedy) {
-  return Error(path.string() + ": " + fault, remedy);
+  return Error(path.string() + ": " + printable(fault), remedy);  // files may be quoted in it
 }
 
 File open_input(const std::filesystem::path& path) {

@@ -53,8 +53,7 @@ void note_interrupts(void (*when_late)(int signal_number)) {
   sem_init(&signal_came, 0, 0);
   std::thread(wait_for_late_end, when_late).detach();
   // Batch systems announce the end of a job's time by SIGUSR1, SIGUSR2 or SIGXCPU.
-  for (const int signal_number :
-       {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGQUIT, SIGUSR1, SIGUSR2, SIGXCPU, SIGALRM})
+  for (const int signal_number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGQUIT, SIGUSR1, SIGUSR2, SIGXCPU})
     note_unless_ignored(signal_number);
   std::signal(SIGCHLD, SIG_DFL);  // a parent may have ignored it: then nobody learns how gnuplot ended
   std::signal(SIGXFSZ, SIG_IGN);  // the write that would pass the limit fails, and says so

@@ -4,6 +4,8 @@
 #include <cctype>
 #include <charconv>
 
+#include "files/printable.h"
+
 namespace heightlight {
 
 bool equal_names(const std::string& a, const std::string& b) {
@@ -25,8 +27,9 @@ std::size_t find_named(const char* kind, const InputFile& file, const std::vecto
   std::size_t index = 0;
   const auto [stop, fault] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
   if (fault == std::errc() && stop == wanted.data() + wanted.size() && index < names.size()) return index;
-  throw UsageError(file.path().string() + ": has no " + kind + " '" + wanted + "'; it has " +
-                   join_names(names));
+  throw UsageError(
+      file.path().string() + ": " +
+      printable("has no " + std::string(kind) + " '" + wanted + "'; it has " + join_names(names)));
 }
 
 void refuse_utf16(const std::filesystem::path& path, std::string_view head) {

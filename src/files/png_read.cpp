@@ -124,8 +124,9 @@ StoredImage read_png(const InputFile& file, std::uint64_t memory_limit) {
   image.width = static_cast<int>(header.width);
   image.height = static_cast<int>(header.height);
   const std::size_t channels = png_get_channels(state.png, state.info);
-  constexpr std::array kNames{"Y", "YA", "RGB", "RGBA"};
-  for (const char* name = kNames.at(channels - 1); *name; ++name) image.channels.emplace_back(1, *name);
+  constexpr std::array kChannelNames{"Y", "YA", "RGB", "RGBA"};
+  for (const char* name = kChannelNames.at(channels - 1); *name; ++name)
+    image.channels.emplace_back(1, *name);
   image.sample_type = sample_bytes == 2 ? "uint16" : "uint8";
   image.bits = header.bits;
   image.is_integer = true;

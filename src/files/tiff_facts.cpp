@@ -147,7 +147,8 @@ void check_tiff_blocks(const InputFile& file) {
   const bool tiled = TIFFIsTiled(tiff.get()) != 0;
   const std::uint32_t blocks = tiled ? TIFFNumberOfTiles(tiff.get()) : TIFFNumberOfStrips(tiff.get());
   const auto whole = static_cast<std::uint64_t>(tiled ? TIFFTileSize(tiff.get()) : TIFFStripSize(tiff.get()));
-  constexpr std::uint64_t kSlack = 1 << 16;  // no compression makes more than twice as much of what it gets
+  constexpr std::uint64_t kBlockSlack =
+      1 << 16;  // no compression makes more than twice as much of what it gets
   for (std::uint32_t block = 0; block < blocks; ++block) {
     throw_if_interrupted();
     const std::uint64_t begin = TIFFGetStrileOffset(tiff.get(), block);
@@ -155,7 +156,7 @@ void check_tiff_blocks(const InputFile& file) {
     if (bytes == 0) continue;  // a block that was left out: all zeros
     if (begin > file.size() || bytes > file.size() - begin)
       throw file.error("is damaged or truncated: a block ends beyond the file");
-    if (bytes > 2 * whole + kSlack) throw file.error("is damaged: a block is larger than what it holds");
+    if (bytes > 2 * whole + kBlockSlack) throw file.error("is damaged: a block is larger than what it holds");
     if (deflated && !is_whole_stream(file, begin, bytes))
       throw file.error("is damaged: a block's checksum is wrong, or its compressed data is");
   }

@@ -77,6 +77,7 @@ TEST_CASE("What is no file of samples is refused with its name and the reason", 
   fault(write_text(scratch / "archive.png", std::string("PK\x03\x04\x14\x00\x00\x00", 8)),
         "is a zip archive; unpack it");
   fault(write_text(scratch / "empty.png", ""), "is empty");
+  fault(write_text(scratch / "short.png", "RIFF\x1a"), "is no image");
   fault(scratch / "absent.png", "no such file");
   fault(scratch.path(), "directory");
   fault("/dev/null", "not a regular file");
