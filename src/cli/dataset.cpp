@@ -154,7 +154,8 @@ void make_dataset(DatasetOptions& options) {
   make_folder(options.folder);
   const FolderLock lock(options.folder);
   std::vector<DatasetRun> runs = list_runs(manifest, options.folder, options.run);
-  for (DatasetRun& run : runs) run.simulate.more_inputs = inputs;
+  const InputGuard guard(inputs);
+  for (DatasetRun& run : runs) run.simulate.inputs = guard;
   Plots plots;
   std::vector<DatasetRun*> to_do;
   for (DatasetRun& run : runs) {

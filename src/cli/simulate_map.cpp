@@ -21,10 +21,8 @@ constexpr int kStudySide = 128;
 constexpr int kStudyBins = 40;
 
 InputGuard guard_inputs(const SimulateOptions& options) {
-  std::vector<std::filesystem::path> files = options.more_inputs;
-  files.push_back(options.map.path);
-  files.emplace_back(options.albedo);  // which names no file where it is a number
-  return files;
+  if (options.inputs) return *options.inputs;
+  return {options.map.path, options.albedo};  // an albedo that is a number names no file
 }
 
 LoadedHeightmap load_input(const SimulateOptions& options) {

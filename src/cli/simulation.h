@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "cli/plots.h"
 #include "cli/visibility_options.h"
 #include "files/file_record.h"
+#include "files/staged_output.h"
 #include "heightlight/files.h"
 #include "heightlight/watch.h"
 
@@ -18,10 +20,10 @@ namespace heightlight {
 struct SimulateOptions {
   MapOptions map;
   RunOptions run;
-  std::string sha256;         ///< what the map's file must have; empty: whatever it has
-  std::string albedo_sha256;  ///< likewise
-  std::string key;            ///< of the run in a dataset, for its summary; empty: it is in none
-  std::vector<std::filesystem::path> more_inputs;  ///< files that the results must not replace either
+  std::string sha256;                ///< what the map's file must have; empty: whatever it has
+  std::string albedo_sha256;         ///< likewise
+  std::string key;                   ///< of the run in a dataset, for its summary; empty: it is in none
+  std::optional<InputGuard> inputs;  ///< that results must not replace; absent: the map and the albedo
   std::filesystem::path folder;
   VisibilityOptions visibility;
   int bounces = 20;
