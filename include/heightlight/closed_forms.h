@@ -34,6 +34,7 @@ struct ClosedForm {
   std::string source;       ///< seed file and equation, or "here"
   AoKind kind = AoKind::sky_view_factor;
   ExtraInput extra = ExtraInput::none;
+  bool both_kinds = false;  ///< it wants the other kind of AO, too
   /// E/π at an albedo in [0, 1]; nothing outside the form's domain.
   std::function<std::optional<double>(const ModelInputs&, double albedo)> evaluate;
 };

@@ -11,6 +11,7 @@
 #include "cli/plots.h"
 #include "cli/tell.h"
 #include "cli/terminal_watch.h"
+#include "cli/user_form_options.h"
 #include "cli/warnings.h"
 #include "files/output_file.h"
 #include "files/printable.h"
@@ -25,6 +26,7 @@ struct FitOptions {
   std::vector<std::filesystem::path> curves;
   std::filesystem::path folder;
   int bootstrap = 200;
+  UserFormOptions forms;
   RunOptions run;
 };
 
@@ -56,21 +58,21 @@ double rms_as_published(const FormFamily& family, const std::vector<FitPoint>& p
   const std::vector<double>& albedos = target_albedos(family.target);
   ErrorTally tally;
   for (const FitPoint& point : points) {
-    const ModelInputs inputs = tune_inputs(family, published, point.moments, point.inputs);
     for (std::size_t k = 0; k < albedos.size(); ++k) {
-      tally.add(family.evaluate(published, inputs, albedos[k]) - point.measured[k], point.weight);
+      tally.add(family.evaluate(published, point.inputs, albedos[k]) - point.measured[k], point.weight);
     }
   }
   return tally.rms();
 }
 
 /// Families that no map has the inputs for are left out.
-std::vector<FittedFamily> fit_families(const FitOptions& options, const std::vector<JudgedMap>& maps) {
+std::vector<FittedFamily> fit_families(const FitOptions& options, const TrialForms& trial,
+                                       const std::vector<JudgedMap>& maps) {
   const std::vector<double> weights(maps.size(), 1);
   std::vector<FittedFamily> fitted;
   const Watch watch = terminal_watch(options.run.quiet);
-  Progress progress("fitting", static_cast<std::int64_t>(form_families().size()), watch);
-  for (const FormFamily& family : form_families()) {
+  Progress progress("fitting", static_cast<std::int64_t>(trial.families.size()), watch);
+  for (const FormFamily& family : trial.families) {
     progress.throw_if_stopped();
     const std::vector<FitPoint> points = collect_points(family, maps);
     progress.add(1);
@@ -92,6 +94,44 @@ std::vector<AlbedoCubic> cubics_by_albedo(const std::vector<JudgedMap>& maps, co
   return {};
 }
 
+/// The forms of the list with the constants fitted here, then the user's.
+std::string shader_of_report(const FitReport& report, const std::vector<UserForm>& own,
+                             ShaderLanguage language) {
+  std::string text = shader_text(language, shader_constants(report));
+  for (const UserForm& form : own) {
+    const FittedFamily* fitted = find_family(report, form.name);
+    const std::span<const double> constants =
+        fitted ? std::span(fitted->fit.parameters.data(), form.expression.constants.size())
+               : std::span<const double>();
+    text += '\n' + user_form_shader(form, language, constants);
+  }
+  return text;
+}
+
+const JudgedForm* find_judged(const std::vector<JudgedForm>& forms, const UserForm& wanted) {
+  for (const JudgedForm& form : forms) {
+    const bool fitted = !wanted.expression.constants.empty();
+    if (form.name == wanted.name + (fitted ? "_refit" : "")) return &form;
+  }
+  return nullptr;
+}
+
+/// A user who gave a form wants it judged, or to know why not, and where it has poles.
+void check_judged(const FitReport& report, const UserForm& form) {
+  const JudgedForm* by_texel = find_judged(report.trial.per_texel, form);
+  const JudgedForm* judged = by_texel ? by_texel : find_judged(report.trial.per_bin, form);
+  if (!judged && report.trial.per_texel.empty() &&
+      (wants_both_kinds(form) || user_form_extra(form) != ExtraInput::none))
+    throw UsageError(
+        "form", form.name,
+        "is a function of n, or of both alpha and A, and no map has every texel's bounces beside "
+        "its curves (simulate --save-bounces)");
+  if (!judged) throw UsageError("form", form.name, "has no finite value on any of the maps");
+  if (judged->outside_share > 0)
+    tell(fmt::format("warning: form {} has no finite value on {:.2g} % of the {}", form.name,
+                     100 * judged->outside_share, by_texel ? "texels" : "bins"));
+}
+
 void draw_plots(StagedFolder& folder, const FitReport& report, Plots& plots) {
   const auto draw = [&](const std::string& name, const auto& plot) {
     plots.draw(folder, {name + ".svg", name + ".png"}, [&](const auto& paths) { plot(paths[0], paths[1]); });
@@ -108,7 +148,10 @@ void fit(FitOptions& options) {
   if (options.bootstrap < 20 || options.bootstrap > 100000) {
     throw UsageError("bootstrap", std::to_string(options.bootstrap), "must be from 20 to 100000");
   }
-  StagedFolder folder(options.folder, options.curves,
+  const std::vector<UserForm> own = read_user_forms(options.forms.forms, options.forms.file);
+  std::vector<std::filesystem::path> inputs = options.curves;
+  inputs.push_back(options.forms.file);
+  StagedFolder folder(options.folder, inputs,
                       {"models.json", "models.csv", "models.glsl", "models.hlsl", "fitted.svg", "fitted.png",
                        "errors.svg", "errors.png", "cubic.svg", "cubic.png"},
                       {.file = "models.json"});
@@ -116,16 +159,17 @@ void fit(FitOptions& options) {
   FitReport report;
   report.seed = options.run.seed;
   report.maps = read_maps(options, report.inputs);
-  report.families = fit_families(options, report.maps);
+  report.forms = list_trial_forms(own);
+  report.families = fit_families(options, report.forms, report.maps);
   report.cubics_three_bounces = cubics_by_albedo(report.maps, "cubic_three_bounces");
   report.cubics_all_bounces = cubics_by_albedo(report.maps, "cubic");
-  report.trial = cross_validate(report.maps, terminal_watch(options.run.quiet));
+  report.trial = cross_validate(report.maps, report.forms, terminal_watch(options.run.quiet));
+  for (const UserForm& form : own) check_judged(report, form);
   report.floors = find_floors(report.maps);
 
   write_bytes(folder.file("models.csv"), report_csv(report));
-  const ShaderConstants constants = shader_constants(report);
-  write_bytes(folder.file("models.glsl"), shader_text(ShaderLanguage::glsl, constants));
-  write_bytes(folder.file("models.hlsl"), shader_text(ShaderLanguage::hlsl, constants));
+  write_bytes(folder.file("models.glsl"), shader_of_report(report, own, ShaderLanguage::glsl));
+  write_bytes(folder.file("models.hlsl"), shader_of_report(report, own, ShaderLanguage::hlsl));
   draw_plots(folder, report, plots);
   report.files = folder.written();
   write_bytes(folder.file("models.json"), report_json(report));
@@ -148,6 +192,7 @@ void add_fit_command(CLI::App& app) {
       ->add_option("CURVES", options->curves, "curves.csv of simulate or dataset.csv of dataset, one or many")
       ->required();
   command->add_option("-o,--output", options->folder, "folder for the results")->type_name("DIR")->required();
+  add_user_form_options(*command, options->forms);
   command->add_option("--bootstrap", options->bootstrap, "draws for the intervals of parameters (200)");
   add_run_options(*command, options->run);
   command->footer(
@@ -160,7 +205,8 @@ void add_fit_command(CLI::App& app) {
       "Examples:\n"
       "  heightlight fit wall/curves.csv -o models\n"
       "  heightlight fit runs/*/curves.csv -o models\n"
-      "  heightlight fit study/dataset.csv -o models");
+      "  heightlight fit study/dataset.csv -o models\n"
+      "  heightlight fit runs/*/curves.csv -o models --form 'mine = A/(1 - rho*(1 - A)^k)'");
   command->callback([options] { fit(*options); });
 }
 

@@ -9,7 +9,7 @@ namespace {
 
 void print_parameters(const FittedFamily& fitted) {
   const FormFamily& family = *fitted.family;
-  const char* start = is_published(family) ? "published" : "default";
+  const char* start = origin_of_constants(family);
   fmt::print("{}: {}  ({})\n", family.name, family.formula, family.source);
   for (std::size_t p = 0; p < family.parameters.size(); ++p) {
     const auto i = static_cast<Eigen::Index>(p);

@@ -34,7 +34,7 @@ Json describe_map(const JudgedMap& map, const std::filesystem::path& curves) {
 
 Json describe_family(const FittedFamily& fitted) {
   const FormFamily& family = *fitted.family;
-  const std::string start = is_published(family) ? "published" : "default";
+  const std::string start = origin_of_constants(family);
   Json parameters = Json::array();
   for (std::size_t p = 0; p < family.parameters.size(); ++p) {
     const auto i = static_cast<Eigen::Index>(p);

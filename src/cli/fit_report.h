@@ -25,6 +25,7 @@ struct FittedFamily {
 struct FitReport {
   std::vector<std::filesystem::path> inputs;  ///< the file of each map's curves, as given
   std::vector<JudgedMap> maps;
+  TrialForms forms;
   std::vector<FittedFamily> families;
   std::vector<AlbedoCubic> cubics_three_bounces;
   std::vector<AlbedoCubic> cubics_all_bounces;

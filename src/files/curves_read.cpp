@@ -2,7 +2,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <set>
 #include <string>
@@ -11,7 +10,7 @@
 
 #include "base/byte_size.h"
 #include "files/input_file.h"
-#include "files/named.h"
+#include "files/text_lines.h"
 #include "heightlight/error.h"
 #include "heightlight/files.h"
 
@@ -37,37 +36,6 @@ enum Column {
 constexpr std::array<std::string_view, kColumnCount> kNames{
     "ao_kind", "bin", "ao_lo", "ao_hi", "ao_mean", "count", "bounce", "mean", "stddev", "p05", "p50", "p95"};
 constexpr double kSlack = 1e-6;  // shares as measured stray out of [0, 1] by rounding
-
-/// Lines of a text file one after the other, none of which is long: what is no table is found at once.
-class LineReader {
- public:
-  explicit LineReader(const InputFile& file) : file_(file), stream_(file.rewound()) {}
-
-  /// Without its end; a byte-order mark before the first is left out. Nothing at the end of the file.
-  std::optional<std::string_view> next() {
-    if (!std::fgets(buffer_.data(), static_cast<int>(buffer_.size()), stream_)) {
-      if (std::ferror(stream_)) throw file_.error("cannot be read to its end");
-      return std::nullopt;
-    }
-    ++line_;
-    std::string_view line = buffer_.data();
-    if (!line.ends_with('\n') && line.size() + 1 == buffer_.size()) throw error("longer than any of curves");
-    if (line_ == 1) refuse_utf16(file_.path(), line);
-    if (line_ == 1 && line.starts_with(kByteOrderMark)) line.remove_prefix(kByteOrderMark.size());
-    while (line.ends_with('\n') || line.ends_with('\r')) line.remove_suffix(1);
-    return line;
-  }
-
-  Error error(const std::string& fault) const {
-    return file_.error("line " + std::to_string(line_) + ": " + fault);
-  }
-
- private:
-  const InputFile& file_;
-  std::FILE* stream_;
-  std::array<char, 65536> buffer_{};
-  std::size_t line_ = 0;
-};
 
 std::vector<std::string_view> split(std::string_view line, char separator) {
   std::vector<std::string_view> fields;

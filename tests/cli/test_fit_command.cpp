@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 
 #include "command.h"
@@ -78,6 +79,74 @@ TEST_CASE("fit judges forms texel by texel, on materials that it left out", "[cl
       CHECK(parameter["standard_error"].get<double>() > 0);
     }
   }
+}
+
+TEST_CASE("constants fitted to two or three maps are bounded, and no worse there than the defaults",
+          "[cli][fit]") {
+  const ScratchFolder folder;
+  for (const std::string shape : {"brick", "cobbles", "fbm", "bowl"}) {
+    REQUIRE(run_command("synth " + shape + " -o " + shape + ".png --size 64", folder).exit_code == 0);
+    REQUIRE(run_command("simulate " + shape + ".png -o " + shape +
+                            " --relief 0.15 --save-bounces --error 0 --azimuths 16 --bounces 8 --quiet",
+                        folder)
+                .exit_code == 0);
+  }
+  for (const std::string maps : {"brick cobbles", "brick fbm cobbles", "bowl brick", "fbm bowl"}) {
+    std::string curves;
+    std::istringstream names(maps);
+    for (std::string name; names >> name;) curves += name + "/curves.csv ";
+    REQUIRE(run_command("fit " + curves + "-o out --bootstrap 20 --quiet", folder).exit_code == 0);
+    const nlohmann::json models = nlohmann::json::parse(read_text(folder / "out/models.json"));
+    for (const nlohmann::json& family : models["families"]) {
+      if (!family["parameters"][0].contains("default")) continue;
+      INFO(maps << ": " << family["name"]);
+      // The shader has these constants, and asks for the same t and s as the defaults do.
+      CHECK(family["rms"].get<double>() <= 1.001 * family["rms_as_default"].get<double>());
+      for (const nlohmann::json& parameter : family["parameters"])
+        CHECK(std::abs(parameter["value"].get<double>()) < 3);
+    }
+  }
+}
+
+TEST_CASE("fit judges and emits a user's own form", "[cli][fit][user-form]") {
+  const ScratchFolder folder;
+  for (const std::string shape : {"brick", "fbm"}) {
+    REQUIRE(run_command("synth " + shape + " -o " + shape + ".png --size 64", folder).exit_code == 0);
+    REQUIRE(run_command("simulate " + shape + ".png -o " + shape +
+                            " --relief 0.15 --save-bounces --error 0 --azimuths 16 --bounces 8 --quiet",
+                        folder)
+                .exit_code == 0);
+  }
+  const std::string fit = "fit brick/curves.csv fbm/curves.csv --bootstrap 20 --quiet ";
+  write_text(folder / "forms.txt", "# remarks are left out\nstored = A + rho*(1 - A)*n/(1 - rho*(1 - n))\n");
+  const CommandResult run =
+      run_command(fit + "-o out --forms forms.txt --form 'mine = A/(1 - rho*(1 - A)^k)'", folder);
+  INFO(run.error);
+  REQUIRE(run.exit_code == 0);
+  CHECK(run.error.empty());
+  const nlohmann::json models = nlohmann::json::parse(read_text(folder / "out/models.json"));
+  const nlohmann::json& texels = models["cross_validation"]["per_texel"];
+  for (std::size_t albedo = 0; albedo < 9; ++albedo)
+    CHECK(rms_at(texels, "stored", albedo) == Approx(rms_at(texels, "seen_stored", albedo)));
+  CHECK(rms_at(texels, "mine_refit", 4) < rms_at(texels, "direct", 4));
+  CHECK(find_form(texels, "mine_refit")["fitted_without_the_material"] == true);
+  CHECK_THAT(read_text(folder / "out/models.glsl"),
+             Contains("float heightlight_mine(float sky, float rho)") &&
+                 Contains("vec3 heightlight_stored(float sky, float seen, vec3 albedo)"));
+  const auto refuses = [&](const std::string& form, int exit_code, const char* fault) {
+    const CommandResult refused = run_command(fit + "-o no --form '" + form + "'", folder);
+    CHECK(refused.exit_code == exit_code);
+    CHECK_THAT(refused.error, Contains(fault));
+    CHECK_FALSE(std::filesystem::exists(folder / "no"));
+  };
+  refuses("mine = A/(1 - rho", 2, "--form 'mine = A/(1 - rho': column 18: a ')' is missing");
+  refuses("mine = A*alhpa", 2, "'alhpa' is not known");
+  refuses("mine = k/(A - A)", 1, "the fit of mine: the form is not finite at A = ");
+  refuses("mine = 1/(A - A)", 2, "--form mine: has no finite value on any of the maps");
+  const CommandResult partly = run_command(fit + "-o partly --form 'mine = sqrt(alpha - 0.5)'", folder);
+  CHECK(partly.exit_code == 0);
+  CHECK_THAT(partly.error,
+             Contains("warning: form mine has no finite value on ") && Contains("% of the texels"));
 }
 
 TEST_CASE("fit takes curves alone", "[cli][fit]") {

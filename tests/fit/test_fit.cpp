@@ -4,6 +4,7 @@
 #include "base/hash.h"
 #include "fit/bootstrap.h"
 #include "fit/least_squares.h"
+#include "fit/trial_forms.h"
 #include "heightlight/error.h"
 #include "heightlight/files.h"
 #include "scratch_folder.h"
@@ -113,6 +114,39 @@ TEST_CASE("without noise parameters come back exactly", "[fit]") {
       CHECK(fit.parameters[static_cast<Eigen::Index>(p)] == Approx(truth[p]).epsilon(1e-4));
     }
   }
+}
+
+TEST_CASE("a user's form is fitted wherever its constants lie", "[fit][user-form]") {
+  const std::vector<JudgedMap> maps{synthetic_map("made", synthetic_curves({}, 0.1, 0.7, 0, 1))};
+  const auto fitted = [&](const std::string& text) {
+    const FormFamily family = make_user_family(parse_user_form(text));
+    return fit_family(family, collect_points(family, maps), {1});
+  };
+  const LeastSquaresFit own = fitted("mine = A + rho*(1 - A)*(a + b*A)/(1 - rho*(1 - a - b*A))");
+  CHECK(own.parameters[0] == Approx(0.1).epsilon(1e-4));  // truncation, as above
+  CHECK(own.parameters[1] == Approx(0.7).epsilon(1e-4));
+  const LeastSquaresFit squared = fitted("mine = A + rho*(1 - A)*(a*a + b*A)/(1 - rho*(1 - a*a - b*A))");
+  CHECK(std::abs(squared.parameters[0]) == Approx(std::sqrt(0.1)).epsilon(1e-4));
+  CHECK_THROWS_WITH(fitted("mine = A + k - j"), Contains("mine") && Contains("do not determine"));
+  CHECK_THROWS_WITH(fitted("mine = k*log(A - 2)"), Contains("not finite at A = ") && Contains("rho = 0.1"));
+  CHECK_THROWS_WITH(fitted("mine = k*n"), Contains("0 measurements"));  // curves do not tell n
+}
+
+TEST_CASE("what maps alike do not determine stays near what is known", "[fit]") {
+  // Two maps of one t: slope and bend are told by their sum alone.
+  std::vector<JudgedMap> maps;
+  for (const char* name : {"one", "other"}) {
+    maps.push_back(synthetic_map(name, synthetic_curves({}, 0.3, 0.5, 0.001, maps.size())));
+    maps.back().deep_seen = 0.3;
+  }
+  const FormFamily& family = family_named("seen_from_deep");
+  const std::vector<FitPoint> points = collect_points(family, maps);
+  const LeastSquaresFit fit = fit_family(family, points, {1, 1});
+  CHECK(fit.parameters[0] + 0.3 * fit.parameters[1] == Approx(0.5).margin(0.01));
+  for (Eigen::Index p = 0; p < 2; ++p)
+    CHECK(std::abs(fit.parameters[p] - family.published[static_cast<std::size_t>(p)]) < 0.3);
+  const ParameterIntervals intervals = bootstrap_family(family, points, maps, fit.parameters, 50, 1);
+  CHECK((intervals.high - intervals.low).maxCoeff() < 1);
 }
 
 TEST_CASE("fits that can't be are errors that name them", "[fit]") {

@@ -37,11 +37,13 @@ const std::map<std::string, Names> kMayInclude = {
     {"screenspace", {"base", "heightmap", "surface"}},
     {"files", kCore},
     {"relief", kCore},
-    {"fit", with(kCore, {"files"})},
-    {"comparison", with(kCore, {"files"})},
+    {"expression", with(kCore, {"files"})},
+    {"user_form", with(kCore, {"files", "expression"})},
+    {"fit", with(kCore, {"files", "expression", "user_form"})},
+    {"comparison", with(kCore, {"files", "expression", "user_form", "fit"})},
     {"bake", with(kCore, {"files"})},
-    {"plot", with(kCore, {"files", "relief", "fit", "comparison"})},
-    {"cli", with(kCore, {"files", "relief", "fit", "comparison", "bake", "plot"})},
+    {"plot", with(kCore, {"files", "expression", "user_form", "relief", "fit", "comparison"})},
+    {"cli", with(kCore, {"files", "expression", "user_form", "relief", "fit", "comparison", "bake", "plot"})},
 };
 
 /// The folders of src/ that hold layers; `cli` and `files` are layers themselves.

@@ -15,6 +15,7 @@ ClosedForm make_form(const FormText& text, AoKind kind, ExtraInput extra, Evalua
           .source = text.source,
           .kind = kind,
           .extra = extra,
+          .both_kinds = false,
           .evaluate = [evaluate, kind](Inputs in, double albedo) -> std::optional<double> {
             const double total = evaluate(in, albedo);
             const bool missing = std::isnan(kind == AoKind::ambient_occlusion ? in.ambient_occlusion.value

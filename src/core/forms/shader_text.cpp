@@ -1,9 +1,9 @@
 #include <array>
-#include <charconv>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "forms/shader_literal.h"
 #include "heightlight/closed_forms.h"
 
 namespace heightlight {
@@ -38,16 +38,6 @@ constexpr std::array kVectorForms{
     VectorForm{"bounced", "float sky, float seen", "sky, seen"},
 };
 
-/// Nine digits tell all floats apart; a point makes an integer a float.
-std::string literal(double value) {
-  std::array<char, 40> digits{};
-  const auto end =
-      std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::general, 9);
-  std::string text(digits.data(), end.ptr);
-  if (text.find_first_of(".e") == std::string::npos) text += ".0";
-  return text;
-}
-
 /// What stands for each $name.
 using Replacements = std::vector<std::pair<std::string, std::string>>;
 
@@ -56,7 +46,7 @@ Replacements list_constants(const FormConstant<Constants> (&constants)[kCount], 
                             const std::string& suffix = "") {
   Replacements all{{"suffix", suffix}};
   for (const FormConstant<Constants>& constant : constants) {
-    all.emplace_back(constant.name, literal(values.*constant.value));
+    all.emplace_back(constant.name, shader_literal(values.*constant.value));
   }
   return all;
 }
@@ -98,8 +88,8 @@ const char* three_floats(ShaderLanguage language) {
 
 std::string shader_text(ShaderLanguage language, const ShaderConstants& constants) {
   Replacements seen = list_constants(kSeenConstants, constants.seen);
-  seen.emplace_back("seen_albedo", literal(kSeenAlbedo));
-  seen.emplace_back("blur_sigma", literal(kBlurSigma));
+  seen.emplace_back("seen_albedo", shader_literal(kSeenAlbedo));
+  seen.emplace_back("blur_sigma", shader_literal(kBlurSigma));
   std::string text = kHead;
   const auto append = [&text](const std::string& part) { (text += part) += '\n'; };
   append(kShareShader);

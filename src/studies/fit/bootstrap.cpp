@@ -41,8 +41,6 @@ ParameterIntervals bootstrap_family(const FormFamily& family, const std::vector<
   std::size_t materials = 0;
   const std::vector<std::size_t> material_of = number_materials(maps, materials);
   const bool by_material = materials >= kFewestMaterials;
-  FormFamily from_best = family;
-  from_best.published.assign(best.data(), best.data() + best.size());
   std::vector<VectorXd> fits(static_cast<std::size_t>(draws));
   parallel_for(draws, [&](std::int64_t draw) {
     const std::uint64_t draw_seed = hash_combine(seed, static_cast<std::uint64_t>(draw));
@@ -56,7 +54,7 @@ ParameterIntervals bootstrap_family(const FormFamily& family, const std::vector<
       for (std::size_t i = 0; i < points.size(); ++i) drawn[i].weight *= times[i];
     }
     try {
-      fits[static_cast<std::size_t>(draw)] = fit_family(from_best, drawn, map_weights).parameters;
+      fits[static_cast<std::size_t>(draw)] = fit_family(family, drawn, map_weights, {best}).parameters;
     } catch (const Error&) {
       // counted below
     }

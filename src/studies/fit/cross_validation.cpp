@@ -1,6 +1,7 @@
 #include "fit/cross_validation.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <set>
@@ -13,35 +14,35 @@ namespace {
 
 using Evaluate = std::function<std::optional<double>(const ModelInputs&, double albedo)>;
 
-/// A form once it knows the map.
-using EvaluateOn = std::function<Evaluate(const JudgedMap&)>;
+/// The forms as fitted without one material; the same order for every material, that of list_judged.
+using Forms = std::vector<Evaluate>;
 
-/// The forms as fitted without one material; the same order for every material.
-using Forms = std::vector<EvaluateOn>;
-
-/// The project's own guesses of n are fitted anew, and not judged on what they were fitted to.
-bool is_fixed(const ClosedForm& form) { return form.source != "here" || form.extra == ExtraInput::seen; }
-
-/// Names and facts of all forms that are judged, without errors yet: fixed ones, then fitted ones.
-std::vector<JudgedForm> list_forms() {
+/// Names and facts of all forms that are judged, without errors yet: fixed ones, the notes' refitted,
+/// families.
+std::vector<JudgedForm> list_judged(const TrialForms& trial) {
   std::vector<JudgedForm> forms;
-  for (const ClosedForm& form : closed_forms()) {
-    if (!is_fixed(form)) continue;
-    forms.push_back({form.name, form.description, form.source, form.kind, form.extra, false, 0, {}, {}});
+  for (const ClosedForm& form : trial.fixed) {
+    forms.push_back({.name = form.name,
+                     .formula = form.description,
+                     .source = form.source,
+                     .kind = form.kind,
+                     .extra = form.extra,
+                     .both_kinds = form.both_kinds});
   }
-  forms.push_back({"notes_refit",
-                   std::string(kNotesText.formula) + ", F0 bounded",
-                   kNotesText.source,
-                   AoKind::ambient_occlusion,
-                   ExtraInput::none,
-                   true,
-                   0,
-                   {},
-                   {}});
-  for (const FormFamily& family : form_families()) {
+  forms.push_back({.name = "notes_refit",
+                   .formula = std::string(kNotesText.formula) + ", F0 bounded",
+                   .source = kNotesText.source,
+                   .kind = AoKind::ambient_occlusion,
+                   .fitted = true});
+  for (const FormFamily& family : trial.families) {
     if (family.target != FitTarget::total) continue;
-    forms.push_back(
-        {family.name + "_refit", family.formula, family.source, family.kind, family.extra, true, 0, {}, {}});
+    forms.push_back({.name = family.name + "_refit",
+                     .formula = family.formula,
+                     .source = family.source,
+                     .kind = family.kind,
+                     .extra = family.extra,
+                     .both_kinds = family.both_kinds,
+                     .fitted = true});
   }
   for (JudgedForm& form : forms) {
     form.errors.resize(judged_albedos().size());
@@ -56,9 +57,9 @@ struct FamilyPoints {
   std::vector<FitPoint> points;
 };
 
-std::vector<FamilyPoints> collect_all(const std::vector<JudgedMap>& maps) {
+std::vector<FamilyPoints> collect_all(const TrialForms& trial, const std::vector<JudgedMap>& maps) {
   std::vector<FamilyPoints> all;
-  for (const FormFamily& family : form_families()) all.push_back({&family, collect_points(family, maps)});
+  for (const FormFamily& family : trial.families) all.push_back({&family, collect_points(family, maps)});
   return all;
 }
 
@@ -76,21 +77,8 @@ std::vector<Eigen::VectorXd> fit_without(const std::string& material, const std:
   return fits;
 }
 
-EvaluateOn same_on_all_maps(const Evaluate& evaluate) {
-  return [evaluate](const JudgedMap&) { return evaluate; };
-}
-
-std::vector<Evaluate> know_map(const Forms& forms, const JudgedMap& map) {
-  std::vector<Evaluate> known;
-  for (const EvaluateOn& form : forms) known.push_back(form(map));
-  return known;
-}
-
-Forms make_forms(const std::vector<FamilyPoints>& all, const std::vector<Eigen::VectorXd>& fits) {
-  Forms forms;
-  for (const ClosedForm& form : closed_forms()) {
-    if (is_fixed(form)) forms.push_back(same_on_all_maps(form.evaluate));
-  }
+/// The notes' total with F₀ and F₁ as fitted.
+Evaluate fitted_notes(const std::vector<FamilyPoints>& all, const std::vector<Eigen::VectorXd>& fits) {
   NotesConstants notes;
   notes.direct_power = 1;
   for (std::size_t f = 0; f < all.size(); ++f) {
@@ -99,20 +87,27 @@ Forms make_forms(const std::vector<FamilyPoints>& all, const std::vector<Eigen::
     notes.first_gain = fits[f][0];
     notes.first_decay = fits[f][1];
   }
-  forms.push_back(same_on_all_maps([notes](const ModelInputs& in, double albedo) {
+  return [notes](const ModelInputs& in, double albedo) {
     return std::optional(notes_total_guarded(in.ambient_occlusion, albedo, notes));
-  }));
+  };
+}
+
+Evaluate fitted_family(const FormFamily& family, const Eigen::VectorXd& fit) {
+  if (fit.size() == 0) return [](const ModelInputs&, double) { return std::optional<double>(); };
+  return [&family, fit](const ModelInputs& in, double albedo) -> std::optional<double> {
+    const double total = family.evaluate(fit, in, albedo);
+    if (!std::isfinite(total)) return std::nullopt;
+    return family.is_clamped ? clamp_share(total) : total;
+  };
+}
+
+Forms make_forms(const TrialForms& trial, const std::vector<FamilyPoints>& all,
+                 const std::vector<Eigen::VectorXd>& fits) {
+  Forms forms;
+  for (const ClosedForm& form : trial.fixed) forms.push_back(form.evaluate);
+  forms.push_back(fitted_notes(all, fits));
   for (std::size_t f = 0; f < all.size(); ++f) {
-    const FormFamily& family = *all[f].family;
-    if (family.target != FitTarget::total) continue;
-    forms.push_back([&family, fit = fits[f]](const JudgedMap& map) -> Evaluate {
-      if (fit.size() == 0) return [](const ModelInputs&, double) { return std::optional<double>(); };
-      const SeenSkyViewFactor<double> deep = tune_inputs(family, fit, map.moments, {}).deep_seen;
-      return [&family, fit, deep](ModelInputs in, double albedo) {
-        in.deep_seen = deep;
-        return std::optional(clamp_share(family.evaluate(fit, in, albedo)));
-      };
-    });
+    if (all[f].family->target == FitTarget::total) forms.push_back(fitted_family(*all[f].family, fits[f]));
   }
   return forms;
 }
@@ -132,9 +127,9 @@ void tally(JudgedForm& form, const Evaluate& evaluate, const ModelInputs& inputs
   form.errors_by_ao[albedo][bin].add(*total - measured, weight);
 }
 
-std::vector<JudgedForm> judge_texels(const JudgedMap& map, const Forms& all_forms) {
-  const std::vector<Evaluate> forms = know_map(all_forms, map);
-  std::vector<JudgedForm> judged = list_forms();
+/// `judged` has no errors yet.
+std::vector<JudgedForm> judge_texels(const JudgedMap& map, const Forms& forms,
+                                     std::vector<JudgedForm> judged) {
   const TexelSample& texels = *map.texels;
   const double weight = 1 / static_cast<double>(texels.size());
   for (std::size_t i = 0; i < texels.size(); ++i) {
@@ -149,13 +144,12 @@ std::vector<JudgedForm> judge_texels(const JudgedMap& map, const Forms& all_form
 }
 
 bool takes_bins(const JudgedForm& form, const JudgedMap& map) {
+  if (form.both_kinds) return false;
   return form.extra == ExtraInput::none || (form.extra == ExtraInput::expected_seen && map.expected_seen) ||
-         (form.extra == ExtraInput::deep_seen && map.texels);
+         (form.extra == ExtraInput::deep_seen && map.deep_seen);
 }
 
-std::vector<JudgedForm> judge_bins(const JudgedMap& map, const Forms& all_forms) {
-  const std::vector<Evaluate> forms = know_map(all_forms, map);
-  std::vector<JudgedForm> judged = list_forms();
+std::vector<JudgedForm> judge_bins(const JudgedMap& map, const Forms& forms, std::vector<JudgedForm> judged) {
   for (std::size_t f = 0; f < forms.size(); ++f) {
     if (!takes_bins(judged[f], map)) continue;
     const bool over_alpha = judged[f].kind == AoKind::ambient_occlusion;
@@ -194,11 +188,13 @@ std::vector<JudgedForm> finish(std::vector<JudgedForm> forms, std::size_t maps) 
 
 }  // namespace
 
-CrossValidation cross_validate(const std::vector<JudgedMap>& maps, const Watch& watch) {
+CrossValidation cross_validate(const std::vector<JudgedMap>& maps, const TrialForms& trial,
+                               const Watch& watch) {
   std::set<std::string> names;
   for (const JudgedMap& map : maps) names.insert(map.material);
   const std::vector<std::string> materials(names.begin(), names.end());
-  const std::vector<FamilyPoints> all = collect_all(maps);
+  const std::vector<FamilyPoints> all = collect_all(trial, maps);
+  const std::vector<JudgedForm> listed = list_judged(trial);
 
   std::vector<Forms> without(materials.size());
   Progress fitting("fits", static_cast<std::int64_t>(materials.size()), watch);
@@ -207,7 +203,7 @@ CrossValidation cross_validate(const std::vector<JudgedMap>& maps, const Watch& 
       [&](std::int64_t m) {
         const auto material = static_cast<std::size_t>(m);
         without[material] =
-            make_forms(all, fit_without(materials[material], all, maps, materials.size() == 1));
+            make_forms(trial, all, fit_without(materials[material], all, maps, materials.size() == 1));
       },
       &fitting);
 
@@ -220,12 +216,12 @@ CrossValidation cross_validate(const std::vector<JudgedMap>& maps, const Watch& 
         const auto map = static_cast<std::size_t>(i);
         const auto material = static_cast<std::size_t>(
             std::find(materials.begin(), materials.end(), maps[map].material) - materials.begin());
-        bins[map] = judge_bins(maps[map], without[material]);
-        if (maps[map].texels) texels[map] = judge_texels(maps[map], without[material]);
+        bins[map] = judge_bins(maps[map], without[material], listed);
+        if (maps[map].texels) texels[map] = judge_texels(maps[map], without[material], listed);
       },
       &judging);
 
-  CrossValidation result{materials.size(), list_forms(), list_forms(), list_forms()};
+  CrossValidation result{materials.size(), listed, listed, listed};
   std::size_t with_texels = 0;
   std::size_t resolved = 0;
   for (std::size_t map = 0; map < maps.size(); ++map) {

@@ -7,6 +7,7 @@
 
 #include "fit/error_tally.h"
 #include "fit/fit_points.h"
+#include "fit/trial_forms.h"
 #include "heightlight/watch.h"
 
 namespace heightlight {
@@ -21,12 +22,13 @@ struct JudgedForm {
   std::string source;
   AoKind kind = AoKind::sky_view_factor;
   ExtraInput extra = ExtraInput::none;
+  bool both_kinds = false;   ///< it wants the other kind of AO, too
   bool fitted = false;       ///< constants fitted without the material judged; otherwise fixed
   double outside_share = 0;  ///< of the texels or bins: outside the form's domain, and in no error
 
   /// Per judged albedo: over everything, and by AO.
-  std::vector<ErrorTally> errors;
-  std::vector<std::array<ErrorTally, kErrorBins>> errors_by_ao;
+  std::vector<ErrorTally> errors = {};
+  std::vector<std::array<ErrorTally, kErrorBins>> errors_by_ao = {};
 };
 
 /// Every form's errors, material after material left out of the fits that judge it.
@@ -37,8 +39,10 @@ struct CrossValidation {
   std::vector<JudgedForm> per_bin;             ///< over bins' means; forms of AO and s alone
 };
 
-/// Judges the closed forms as they are, and all families fitted anew. With one material only, forms are
-/// judged on what they were fitted to. `watch` sees how far it is.
-CrossValidation cross_validate(const std::vector<JudgedMap>& maps, const Watch& watch);
+/// Judges the forms on trial, fixed ones as they are and families fitted anew; they must outlive what it
+/// returns. With one material only, forms are judged on what they were fitted to. `watch` sees how far it is.
+/// Throws Error as fit_family does.
+CrossValidation cross_validate(const std::vector<JudgedMap>& maps, const TrialForms& trial,
+                               const Watch& watch);
 
 }  // namespace heightlight

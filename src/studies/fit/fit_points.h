@@ -13,16 +13,17 @@ struct FitPoint {
   ModelInputs inputs;
   double weight = 0;  ///< its share of the map's texels, so that maps count alike
   std::size_t map = 0;
-  SeenMoments moments;           ///< of its map
   std::vector<double> measured;  ///< one per albedo of the target
 };
 
-/// Points of the maps that have what the family needs: bins of curves, or cells of 1/24 × 1/24 of A and the
-/// extra input where that varies over the map.
+/// Points of the maps that have what the family needs: bins of curves where it is a function of one kind of
+/// AO, beside numbers of the map; else cells of 1/24 of each input that varies over the map.
 std::vector<FitPoint> collect_points(const FormFamily& family, const std::vector<JudgedMap>& maps);
 
 /// Least squares over the points, each weighed by `map_weight` of its map too; maps of weight 0 are left out.
+/// Begins at each of `starts`, those of the family where there are none, and keeps the best. Throws Error as
+/// fit_least_squares does, and where the family has no finite value at a point, wherever it begins.
 LeastSquaresFit fit_family(const FormFamily& family, const std::vector<FitPoint>& points,
-                           const std::vector<double>& map_weights);
+                           const std::vector<double>& map_weights, std::vector<Eigen::VectorXd> starts = {});
 
 }  // namespace heightlight

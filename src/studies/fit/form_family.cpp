@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "fit/judged_map.h"
+#include "user_form/user_form.h"
 
 namespace heightlight {
 namespace {
@@ -86,12 +87,9 @@ FormFamily cubic_family(const char* name, FitTarget target) {
                                      });
 }
 
-SeenConstants deep_constants(Parameters p) {
-  SeenConstants constants;
-  constants.deep_slope = p[0];
-  constants.deep_bend = p[1];
-  return constants;
-}
+/// Of this project's constants, which are as fitted to the maps of plots/make-models: on as many maps what is
+/// known beforehand hardly counts, on two alike it bounds what they leave open.
+constexpr double kPriorError = 0.005;
 
 std::vector<FormFamily> seen_families() {
   using C = SeenConstants;
@@ -134,15 +132,18 @@ const std::vector<FormFamily>& form_families() {
     std::vector<FormFamily> all = notes_families();
     all.push_back(cubic_family("cubic_three_bounces", FitTarget::three_bounces));
     all.push_back(cubic_family("cubic", FitTarget::total));
-    for (FormFamily& family : seen_families()) all.push_back(std::move(family));
+    for (FormFamily& family : seen_families()) {
+      family.prior_error = kPriorError;
+      all.push_back(std::move(family));
+    }
     return all;
   }();
   return families;
 }
 
-bool is_published(const FormFamily& family) {
-  constexpr const char* kOwn = "here";  // as FormText::source has it
-  return family.source != kOwn;
+const char* origin_of_constants(const FormFamily& family) {
+  if (family.source == kUserFormSource) return "start";
+  return family.source == "here" ? "default" : "published";  // as FormText::source has it
 }
 
 const std::vector<double>& target_albedos(FitTarget target) {
@@ -157,14 +158,6 @@ const std::vector<double>& target_albedos(FitTarget target) {
     default:
       return none;
   }
-}
-
-ModelInputs tune_inputs(const FormFamily& family, const VectorXd& parameters, const SeenMoments& moments,
-                        ModelInputs inputs) {
-  if (family.extra == ExtraInput::deep_seen) {
-    inputs.deep_seen = tune_deep_seen(moments, deep_constants(parameters));
-  }
-  return inputs;
 }
 
 }  // namespace heightlight

@@ -25,19 +25,20 @@ struct FormFamily {
   std::string source;
   AoKind kind = AoKind::sky_view_factor;
   ExtraInput extra = ExtraInput::none;
+  bool both_kinds = false;  ///< it wants the other kind of AO, too
+  bool is_clamped = true;   ///< judged within [0, 1]; fits see it as it is
   FitTarget target = FitTarget::total;
   std::vector<std::string> parameters = {};
   std::vector<double> published = {};
+  /// What is known of the parameters beforehand: one that is off by its published value counts as this RMS
+  /// error on one map. It keeps those near that the maps do not determine; 0: nothing is known.
+  double prior_error = 0;
+  std::vector<std::vector<double>> more_starts = {};  ///< of fits, beside the published values
   std::function<double(const Eigen::VectorXd& parameters, const ModelInputs&, double albedo)> evaluate = {};
 };
 
-/// Whether its constants stand in a paper; those of this project's own forms are defaults.
-bool is_published(const FormFamily& family);
-
-/// The inputs with what the family itself finds out about the map, given its parameters: t, for
-/// ExtraInput::deep_seen.
-ModelInputs tune_inputs(const FormFamily& family, const Eigen::VectorXd& parameters,
-                        const SeenMoments& moments, ModelInputs inputs);
+/// What its constants are before a fit: "published" in a paper, this project's "default", or a mere "start".
+const char* origin_of_constants(const FormFamily& family);
 
 /// All families: the notes' F₀ and F₁, Jimenez' cubic of three and of all bounces, and those of G(A, n, ρ).
 const std::vector<FormFamily>& form_families();

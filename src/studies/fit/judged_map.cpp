@@ -77,10 +77,12 @@ void add_rest_of_run(const std::filesystem::path& curves_csv, std::uint64_t memo
   if (!has_saved_texels(*run)) return;
   map.texels =
       sample(read_saved_texels(curves_csv.parent_path(), *run, judged_albedos(), memory_limit), run->tiles);
+  SeenMoments moments;
   for (std::size_t i = 0; i < map.texels->size(); ++i) {
-    map.moments.add(SkyViewFactor(double{map.texels->sky_view_factor[i]}),
-                    SeenSkyViewFactor(double{map.texels->seen[i]}));
+    moments.add(SkyViewFactor(double{map.texels->sky_view_factor[i]}),
+                SeenSkyViewFactor(double{map.texels->seen[i]}));
   }
+  map.deep_seen = tune_deep_seen(moments).value;
 }
 
 }  // namespace
@@ -119,6 +121,7 @@ ModelInputs texel_inputs(const JudgedMap& map, std::size_t texel) {
   inputs.ambient_occlusion = AmbientOcclusion(double{texels.ambient_occlusion[texel]});
   inputs.sky_view_factor = SkyViewFactor(double{texels.sky_view_factor[texel]});
   inputs.expected_seen = SeenSkyViewFactor(map.expected_seen.value_or(0));
+  inputs.deep_seen = SeenSkyViewFactor(map.deep_seen.value_or(0));
   inputs.blurred = SeenSkyViewFactor(double{texels.blurred[texel]});
   inputs.seen = SeenSkyViewFactor(double{texels.seen[texel]});
   return inputs;
@@ -132,6 +135,7 @@ ModelInputs bin_inputs(const JudgedMap& map, const CurveBin& bin, AoKind kind) {
     inputs.sky_view_factor = SkyViewFactor(bin.ao_mean);
   }
   inputs.expected_seen = SeenSkyViewFactor(map.expected_seen.value_or(0));
+  inputs.deep_seen = SeenSkyViewFactor(map.deep_seen.value_or(0));
   return inputs;
 }
 

@@ -35,7 +35,7 @@ struct JudgedMap {
   std::optional<double> expected_seen;  ///< s; from the summary beside the curves
   std::optional<double> measured_seen;
   std::optional<TexelSample> texels;  ///< where bounces were saved
-  SeenMoments moments;                ///< of those texels
+  std::optional<double> deep_seen;    ///< t of those texels, by the default constants, as simulate says it
 };
 
 /// Reads CURVES.csv, and what else `simulate` left in its folder; of a `dataset.csv` every run, and what lies

@@ -51,6 +51,9 @@ Eigen::MatrixXd scatter(const Eigen::MatrixXd& slopes, const Eigen::VectorXd& le
   return sum;
 }
 
+/// Of slopes of one size: below it a parameter is told from the others by the noise of differences alone.
+constexpr double kLeastPivot = 1e-6;
+
 bool converged(Eigen::LevenbergMarquardtSpace::Status status) {
   using namespace Eigen::LevenbergMarquardtSpace;
   switch (status) {
@@ -75,7 +78,8 @@ LeastSquaresFit fit_least_squares(const std::string& what, const Eigen::VectorXd
     throw Error("the fit of " + what + " has " + std::to_string(shape.groups) + " measurements for " +
                 std::to_string(start.size()) + " parameters");
   }
-  const Eigen::Index count = shape.groups * shape.group_size;
+  const Eigen::Index measured = shape.groups * shape.group_size;
+  const Eigen::Index count = measured + shape.priors;
   Residuals functor(start.size(), count, residuals);
   Eigen::LevenbergMarquardt<Residuals> solver(functor);
   solver.setMaxfev(400 * static_cast<Eigen::Index>(start.size() + 1));
@@ -89,15 +93,16 @@ LeastSquaresFit fit_least_squares(const std::string& what, const Eigen::VectorXd
   }
   Eigen::MatrixXd slopes(count, start.size());
   functor.df(fit.parameters, slopes);
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> decomposed(slopes);
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> decomposed(slopes.colwise().normalized());
+  decomposed.setThreshold(kLeastPivot);
   if (decomposed.rank() < start.size()) {
     throw Error("the fit of " + what + ": the data do not determine its parameters");
   }
   const Eigen::MatrixXd bread = (slopes.transpose() * slopes).inverse();
   const auto groups = static_cast<double>(shape.groups);
   fit.covariance = groups / (groups - static_cast<double>(start.size())) *
-                   (bread * scatter(slopes, left, shape.group_size) * bread);
-  fit.rms = std::sqrt(left.squaredNorm() / shape.weight_sum);
+                   (bread * scatter(slopes.topRows(measured), left.head(measured), shape.group_size) * bread);
+  fit.rms = std::sqrt(left.head(measured).squaredNorm() / shape.weight_sum);
   return fit;
 }
 

@@ -13,14 +13,15 @@ using ResidualFunction = std::function<void(const Eigen::VectorXd& parameters, E
 struct LeastSquaresFit {
   Eigen::VectorXd parameters;
   Eigen::MatrixXd covariance;  ///< allows for residuals of one group that err together
-  double rms = 0;              ///< √(Σ r²/Σ w), given the sum of the weights
+  double rms = 0;              ///< √(Σ r²/Σ w) over the measurements, given the sum of the weights
 };
 
 /// How residuals belong together.
 struct ResidualShape {
   Eigen::Index groups = 0;      ///< measurements that err independently of each other
   Eigen::Index group_size = 1;  ///< residuals of each, which may err together: consecutive in r
-  double weight_sum = 1;        ///< Σ w, over all residuals
+  Eigen::Index priors = 0;      ///< residuals after those: what is known of the parameters beforehand
+  double weight_sum = 1;        ///< Σ w, over all residuals but those
 };
 
 /// Minimises Σ r² from `start` by Levenberg and Marquardt's method (Eigen), with forward differences. The
