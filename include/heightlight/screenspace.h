@@ -169,13 +169,18 @@ struct SsdoOptions {
 ScreenSpaceView ssdo(const DepthBuffer& depth, const std::vector<SurfaceAlbedo>& albedos,
                      const SsdoOptions& options);
 
+/// The role (below) of GTAO at a usual preset.
+inline constexpr const char* kRoleOfGames = "GTAO as games run it";
+
 /// One line of the table of methods: a method with its parameters, ready to run.
 struct ScreenSpaceMethod {
   std::string name;        ///< of the method: "gtao"
   std::string parameters;  ///< in words, without commas
   /// Representative: its error is drawn, and closed forms are tried on it.
   bool shown = false;
-  std::function<ScreenSpaceView(const DepthBuffer&, const std::vector<SurfaceAlbedo>&)> run;
+  std::string role = {};      ///< of the few that stand at the head of reports: kRoleOfGames, say
+  bool finds_totals = false;  ///< for each albedo that it is given
+  std::function<ScreenSpaceView(const DepthBuffer&, const std::vector<SurfaceAlbedo>&)> run = {};
 };
 
 /// All that are compared. Reaches are in units of the map's relief.

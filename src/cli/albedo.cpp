@@ -108,6 +108,17 @@ ReadAlbedo read_albedo_file(const std::string& path, const Heightmap& map, std::
 
 }  // namespace
 
+std::optional<std::vector<double>> parse_albedo_list(const std::string& text) {
+  constexpr std::size_t kMost = 8;
+  std::optional<std::vector<double>> values = parse_constants(text);
+  if (!values) return values;
+  const bool in_range =
+      std::all_of(values->begin(), values->end(), [](double v) { return v >= 0 && v <= 1; });
+  if (!in_range || values->size() > kMost)
+    throw UsageError("albedo", text, "must be one to eight numbers, each in [0, 1], or the name of an image");
+  return values;
+}
+
 void check_albedo(const std::string& text) {
   if (auto colour = parse_picture_colour(text)) return;
   if (auto constants = parse_constants(text)) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,12 @@ struct ReadAlbedo {
 /// another size, with samples outside [0, 1] or NaN, or written to while it was read.
 ReadAlbedo read_albedo(const std::string& text, const Heightmap& map, std::uint64_t memory_limit);
 
-/// What of that can be told without a map. Throws UsageError for values outside [0, 1] or too few or many of
-/// them, Error for a file that is not there.
+/// "0.2,0.5,0.8": albedos that are tried one by one, at most eight; nothing where the text is no list of
+/// numbers. Throws UsageError for values outside [0, 1] or too many.
+std::optional<std::vector<double>> parse_albedo_list(const std::string& text);
+
+/// What of read_albedo can be told without a map. Throws UsageError for values outside [0, 1] or too few or
+/// many of them, Error for a file that is not there.
 void check_albedo(const std::string& text);
 
 }  // namespace heightlight

@@ -7,24 +7,22 @@
 #include "base/byte_size.h"
 #include "cli/albedo.h"
 #include "cli/commands.h"
+#include "cli/compare_json.h"
+#include "cli/compare_pictures.h"
 #include "cli/map_options.h"
 #include "cli/name_errors.h"
 #include "cli/plots.h"
 #include "cli/terminal_watch.h"
+#include "cli/user_form_options.h"
 #include "cli/warnings.h"
 #include "comparison/comparison_csv.h"
 #include "comparison/report.h"
-#include "files/evidence_json.h"
-#include "files/image_file.h"
 #include "files/output_file.h"
 #include "files/printable.h"
 #include "files/staged_output.h"
 #include "heightlight/error.h"
 #include "heightlight/files.h"
 #include "heightlight/screenspace.h"
-#include "heightlight/version.h"
-#include "plot/error_pictures.h"
-#include "plot/pareto_plot.h"
 
 namespace heightlight {
 namespace {
@@ -34,12 +32,16 @@ struct CompareOptions {
   RunOptions run;
   std::filesystem::path folder;
   std::string albedo = "0.2,0.5,0.8";
+  UserFormOptions forms;
   int azimuths = 128;
 };
 
-/// Albedos under the names that the table's quantities have.
-std::vector<ComparedAlbedo> compared_albedos(const Albedo& albedo, const Surface& surface) {
+/// Albedos under the names that the table's quantities have: numbers one by one, or what an image holds.
+std::vector<ComparedAlbedo> compared_albedos(const CompareOptions& options, const Surface& surface) {
   std::vector<ComparedAlbedo> albedos;
+  const std::optional<std::vector<double>> list = parse_albedo_list(options.albedo);
+  const Albedo albedo = list ? Albedo{.constant = *list, .varying = {}}
+                             : read_albedo(options.albedo, surface.map, options.run.memory).albedo;
   for (const double constant : albedo.constant) {
     albedos.push_back({.label = fmt::format("{:g}", constant),
                        .reflectance = TexelVector(surface.map.height.size(), constant)});
@@ -58,7 +60,7 @@ std::vector<ComparedAlbedo> compared_albedos(const Albedo& albedo, const Surface
 std::uint64_t bytes_held(const Surface& surface, std::size_t albedos, std::size_t shown) {
   constexpr std::uint64_t kMap = sizeof(Map::value_type);
   constexpr std::uint64_t kSurface = kMap + sizeof(Vector3);
-  constexpr std::uint64_t kReference = 3 * kMap + sizeof(Vector3);
+  constexpr std::uint64_t kReference = 4 * kMap + sizeof(Vector3);
   constexpr std::uint64_t kEstimate = 4 * kMap + sizeof(Vector3);
   constexpr std::uint64_t kTwoTone = 3 * kMap + 3 * kMap;  // three channels of differences, and their sizes
   const std::uint64_t per_albedo = 2 * kMap + kMap + sizeof(TexelVector::value_type);
@@ -79,58 +81,18 @@ std::uint64_t memory_for_methods(const CompareOptions& options, const Surface& s
                     " allowed");
 }
 
-/// "error_03_gtao.png" of the number-th method that is drawn.
-std::string error_picture_name(std::size_t number, std::string method) {
-  std::replace(method.begin(), method.end(), ' ', '_');
-  return fmt::format("error_{:02}_{}.png", number, method);
-}
-
 std::vector<std::string> result_names() {
-  std::vector<std::string> names{"compare.csv", "compare.json", "report.md",
-                                 "pareto.svg",  "pareto.png",   "errors.png"};
+  std::vector<std::string> names{"compare.csv", "compare.json", "report.md",  "forms.svg",       "forms.png",
+                                 "pareto.svg",  "pareto.png",   "errors.png", "total_errors.png"};
   const std::vector<std::string> shown = shown_methods();
   for (std::size_t i = 0; i < shown.size(); ++i) names.push_back(error_picture_name(i + 1, shown[i]));
   return names;
 }
 
-void write_error_pictures(StagedFolder& folder, const std::vector<ErrorMap>& maps, const std::string& title,
-                          Plots& plots) {
-  for (std::size_t i = 0; i < maps.size(); ++i) {
-    write_png(folder.file(error_picture_name(i + 1, maps[i].method)),
-              difference_picture(maps[i].differences));
-  }
-  plots.draw(folder, {"errors.png"}, [&](const auto& paths) { plot_error_sheet(paths[0], maps, title); });
-}
-
-/// compare.json: the map, what the reference errs by, and the evidence of its totals.
-std::string evidence_json(const CompareOptions& options, const Surface& surface,
-                          const LoadedHeightmap& loaded, const ComparisonReference& reference,
-                          const std::vector<FileRecord>& files) {
-  nlohmann::ordered_json json;
-  json["version"] = HEIGHTLIGHT_VERSION;
-  json["map"] = describe_map(options.map.path, loaded.facts.sha256, surface);
-  json["files"] = describe_files(files);
-  json["warnings"] = describe_warnings(loaded.warnings);
-  json["reference"] = {{"azimuths", reference.azimuths},
-                       {"checked",
-                        {{"receivers", reference.checked},
-                         {"azimuths", kCheckAzimuths},
-                         {"sky_view_factor_rmse", reference.sky_rmse},
-                         {"bent_normal_rmse_degrees", reference.bent_rmse_deg},
-                         {"rays", kCheckRays},
-                         {"sky_view_factor_rmse_by_rays", reference.ray_rmse}}}};
-  json.update(describe_evidence(reference.total_evidence));
-  json["time_s"] = describe_times(reference.total_evidence.seconds);
-  json["memory"] = describe_memory(reference.total_evidence);
-  json["threads"] = reference.total_evidence.threads;
-  return json_text(json);
-}
-
 void compare_on(const CompareOptions& options, const Surface& surface, LoadedHeightmap& loaded,
-                StagedFolder& folder, Plots& plots) {
+                const std::vector<UserForm>& own, StagedFolder& folder, Plots& plots) {
   const Watch terminal = terminal_watch(options.run.quiet);
-  const std::vector<ComparedAlbedo> albedos =
-      compared_albedos(read_albedo(options.albedo, surface.map, options.run.memory).albedo, surface);
+  const std::vector<ComparedAlbedo> albedos = compared_albedos(options, surface);
   const std::uint64_t memory = memory_for_methods(options, surface, albedos);
   const Stopwatch watch;
   const DepthBuffer depth = make_depth_buffer(surface);
@@ -140,26 +102,32 @@ void compare_on(const CompareOptions& options, const Surface& surface, LoadedHei
                                                                   .memory = memory,
                                                                   .seed = options.run.seed,
                                                                   .watch = terminal});
-  const ComparedScene scene{
+  ComparedScene scene{
       .surface = surface, .depth = depth, .albedos = albedos, .memory = memory, .seed = options.run.seed};
+  std::vector<FormOnMap> own_forms;
+  for (const UserForm& form : own) {
+    own_forms.push_back(fit_on_map(form, scene, reference));
+    scene.forms.push_back(to_closed_form(form, own_forms.back().constants));
+  }
   const Comparison comparison = compare_methods(scene, reference, make_contenders(scene), terminal);
+  const Answer answer = find_answer(comparison, scene);
 
   for (const std::string& fault : find_faults(reference.total_evidence))
     loaded.warnings.push_back({"the reference: " + fault});
-  const std::string name = printable(options.map.path.filename());
+  const ReportInput input{.map_name = printable(options.map.path.filename()),
+                          .scene = scene,
+                          .reference = reference,
+                          .comparison = comparison,
+                          .answer = answer,
+                          .own_forms = own_forms,
+                          .depth_cost = depth_cost,
+                          .warnings = loaded.warnings};
   write_comparison_csv(folder.file("compare.csv"), comparison.rows);
-  write_report(folder.file("report.md"), {.map_name = name,
-                                          .scene = scene,
-                                          .reference = reference,
-                                          .comparison = comparison,
-                                          .depth_cost = depth_cost,
-                                          .warnings = loaded.warnings});
-  plots.draw(folder, {"pareto.svg", "pareto.png"}, [&](const auto& paths) {
-    plot_pareto(paths[0], paths[1], comparison.rows, {kSkyQuantity, total_quantity(albedos.back())}, name);
-  });
-  write_error_pictures(folder, comparison.shown, name, plots);
+  write_report(folder.file("report.md"), input);
+  write_error_pictures(folder, comparison.shown);
+  draw_comparison(folder, input, plots);
   const std::vector<FileRecord> files = folder.written();
-  write_bytes(folder.file("compare.json"), evidence_json(options, surface, loaded, reference, files));
+  write_bytes(folder.file("compare.json"), comparison_json(options.map.path, loaded, input, files));
   const std::vector<std::string> removed = folder.commit();
   tell_warnings(options.map.path, loaded.warnings);
   if (options.run.quiet) return;
@@ -171,12 +139,13 @@ void compare_on(const CompareOptions& options, const Surface& surface, LoadedHei
 void compare(CompareOptions& options) {
   apply_run_options(options.run);
   check_azimuths(options.azimuths);
-  StagedFolder folder(options.folder, {options.map.path, options.albedo}, result_names(),
+  const std::vector<UserForm> own = read_user_forms(options.forms.forms, options.forms.file);
+  StagedFolder folder(options.folder, {options.map.path, options.albedo, options.forms.file}, result_names(),
                       {.file = "compare.json", .prefix = "error_"});
   Plots plots;
   LoadedHeightmap loaded = load_heightmap(options.map.path, options.map.load, options.run.memory);
   const Surface surface = build_surface(std::move(loaded.map));
-  name_errors(options.map.path, [&] { compare_on(options, surface, loaded, folder, plots); });
+  name_errors(options.map.path, [&] { compare_on(options, surface, loaded, own, folder, plots); });
   plots.check();
 }
 
@@ -189,17 +158,21 @@ void add_compare_command(CLI::App& app) {
   command->add_option("-o,--output", options->folder, "folder for the results")->type_name("DIR")->required();
   command
       ->add_option("--albedo", options->albedo,
-                   "of the totals: one to three numbers, or an image of the map's size (0.2,0.5,0.8)")
-      ->type_name("R|R,R,R|FILE");
+                   "of the totals: one to eight numbers, or an image of the map's size (0.2,0.5,0.8)")
+      ->type_name("R,R…|FILE");
   command->add_option("--azimuths", options->azimuths,
                       "of the reference, an even number (128); its error stands in the report");
+  add_user_form_options(*command, options->forms);
   add_run_options(*command, options->run);
   command->footer(
-      "Writes compare.csv, compare.json, report.md, pareto.svg and .png, errors.png, and "
-      "error_NN_METHOD.png.\n"
+      "Writes report.md, which begins with the answer: what each closed form errs by on exact AO and on "
+      "GTAO's;\n"
+      "forms, pareto (.svg, .png), errors.png, total_errors.png, error_NN_METHOD.png; compare.csv, "
+      "compare.json.\n"
       "Examples:\n"
       "  heightlight compare brick.png -o brick\n"
-      "  heightlight compare dem.tif -o dem --texel 50 --boundary open --albedo 0.3");
+      "  heightlight compare dem.tif -o dem --texel 50 --boundary open --albedo 0.3\n"
+      "  heightlight compare brick.png -o brick --form 'mine = A/(1 - rho*(1 - A)^k)'");
   command->callback([options] { compare(*options); });
 }
 

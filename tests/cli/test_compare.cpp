@@ -34,8 +34,8 @@ TEST_CASE("compare writes its table, report, plots and pictures, and errors that
   REQUIRE(one.exit_code == 0);
   REQUIRE(run_command("compare map.png -o two --albedo 0.3,0.8,0.8 --threads 2 --quiet", folder).exit_code ==
           0);
-  for (const char* name :
-       {"compare.csv", "compare.json", "report.md", "pareto.svg", "pareto.png", "errors.png"}) {
+  for (const char* name : {"compare.csv", "compare.json", "report.md", "forms.svg", "forms.png", "pareto.svg",
+                           "pareto.png", "errors.png", "total_errors.png"}) {
     CHECK(std::filesystem::file_size(folder / (std::string("one/") + name)) > 500);
   }
   const auto pictures = std::filesystem::directory_iterator(folder / "one");
@@ -62,6 +62,8 @@ TEST_CASE("compare writes its table, report, plots and pictures, and errors that
     CHECK(quantities[quantity] > 0);
   }
   const std::string report = read_text(folder / "one/report.md");
+  CHECK(report.find("Which form is best, on exact AO?") < report.find("## The reference"));
+  CHECK(report.find("GTAO as games run it") < report.find("## The reference"));
   CHECK(report.find("The cheapest method for each error: sky_view_factor") != std::string::npos);
   CHECK(report.find("nan") == std::string::npos);
   const nlohmann::json evidence = nlohmann::json::parse(read_text(folder / "one/compare.json"));
@@ -69,6 +71,45 @@ TEST_CASE("compare writes its table, report, plots and pictures, and errors that
   CHECK(evidence["reference"]["checked"]["receivers"] == 256);
   CHECK(evidence["visibility"]["checked"]["total_rmse_by_albedo"].size() == 3);
   CHECK(evidence["memory"]["estimated_bytes"].get<std::uint64_t>() > 0);
+  std::map<std::string, int> groups;
+  for (const nlohmann::json& line : evidence["answer"]) {
+    ++groups[line["ao"].get<std::string>()];
+    REQUIRE(line["errors"].size() == 3);
+    CHECK(line["errors"][1]["rmse"] == line["errors"][2]["rmse"]);  // both at 0.8
+    if (line["ao"] == "exact AO" && line["form"] == "seen_stored") CHECK(line["errors"][1]["rmse"] < 0.01);
+    if (line["form"] != "notes_guarded") CHECK(line["outside_domain"] == 0);
+  }
+  CHECK(groups["exact AO"] == 6);
+  for (const char* role : {"GTAO as games run it", "GTAO converged", "horizon walk"})
+    CHECK(groups[role] == 5);
+}
+
+TEST_CASE("compare fits and judges a user's own form", "[cli][compare][user-form][slow]") {
+  const ScratchFolder folder;
+  REQUIRE(run_command("synth brick -o map.png --size 32", folder).exit_code == 0);
+  const CommandResult run = run_command(
+      "compare map.png -o out --albedo 0.3,0.6 --quiet --form 'mine = A/(1 - rho*(1 - A)^k)' "
+      "--form 'fixed = A/(1 - rho*(1 - A))' --form 'holes = sqrt(A - 0.5)'",
+      folder);
+  INFO(run.error);
+  REQUIRE(run.exit_code == 0);
+  const nlohmann::json evidence = nlohmann::json::parse(read_text(folder / "out/compare.json"));
+  const nlohmann::json& mine = evidence["own_forms"][0];
+  CHECK(mine["name"] == "mine");
+  CHECK(mine["constants"]["k"] > 0.5);
+  CHECK(mine["rmse"].get<double>() <=
+        evidence["own_forms"][1]["rmse"].get<double>() + 1e-9);  // it fits to that
+  CHECK(mine["rmse_on_halves_left_out"] > 0);
+  std::map<std::string, nlohmann::json> exact;
+  for (const nlohmann::json& line : evidence["answer"]) {
+    if (line["ao"] == "exact AO") exact[line["form"].get<std::string>()] = line;
+  }
+  CHECK(exact["fixed"]["errors"] == exact["uniform_neighbourhood"]["errors"]);
+  CHECK(exact["holes"]["outside_domain"] > 0.05);
+  CHECK(read_text(folder / "out/report.md").find("`mine = A/(1 - rho*(1 - A)^k), k = ") != std::string::npos);
+  const std::vector<std::vector<std::string>> table = read_table(folder / "out/compare.csv");
+  CHECK(std::count_if(table.begin(), table.end(),
+                      [](const std::vector<std::string>& row) { return row[1].ends_with("; mine"); }) > 20);
 }
 
 TEST_CASE("compare takes a map with holes, an image as albedo, and a level map", "[cli][compare][slow]") {
@@ -93,6 +134,10 @@ TEST_CASE("compare refuses what makes no sense, and leaves nothing behind", "[cl
   REQUIRE(run_command("synth fbm -o map.png --size 16", folder).exit_code == 0);
   const auto which = GENERATE(std::pair{"compare map.png -o out --azimuths 7", 2},
                               std::pair{"compare map.png -o out --albedo 1.5", 2},
+                              std::pair{"compare map.png -o out --albedo .1,.2,.3,.4,.5,.6,.7,.8,.9", 2},
+                              std::pair{"compare map.png -o out --form 'm = A +'", 2},
+                              std::pair{"compare map.png -o out --form 'm = 1/(A - A)'", 2},
+                              std::pair{"compare map.png -o out --form 'm = k/(A - A)'", 1},
                               std::pair{"compare map.png -o out --memory 10k", 1},
                               std::pair{"compare absent.png -o out", 1}, std::pair{"compare map.png", 2});
   const CommandResult result = run_command(which.first, folder);

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "base/texel_algebra.h"
+#include "comparison/answer.h"
 #include "comparison/closed_form_totals.h"
 #include "comparison/compare_methods.h"
 #include "comparison/comparison_csv.h"
@@ -150,12 +151,55 @@ TEST_CASE("every method is compared, and the exact ones come out exact", "[compa
   CHECK(rmse("ambient transfer", "total_irradiance_0.5") < 0.3);
   CHECK(rmse("ssdo", kTwoToneQuantity) < 0.3);
   CHECK(comparison.shown.size() >= 8);
+  // What is found without a bounce costs no bounce: A has one price, whatever the albedo.
+  REQUIRE(comparison.stages.size() > 5);
+  for (const StageCost& stage : comparison.stages) {
+    CHECK((stage.method == "ssdo" || stage.method == "ambient transfer"));
+    CHECK(stage.bounce_core_seconds.size() == 1);
+  }
+  REQUIRE(comparison.roles.size() == 4);
+  CHECK(comparison.roles[0].role == kExactMethod);
+  const Answer answer = find_answer(comparison, compared);
+  REQUIRE(answer.groups.size() == 4);
+  CHECK(answer.groups[0].lines.size() == answering_forms(closed_forms()).size());
+  CHECK(best_line(answer.groups[0], 0)->errors[0].rmse < 0.05);
+  CHECK(answer.groups[0].lines.back().label == "G, n stored");
+  CHECK(answer.groups[0].lines.back().errors[0].rmse < best_line(answer.groups[0], 0)->errors[0].rmse);
   for (const ComparisonRow& r : comparison.rows) {
     INFO(r.method << ", " << r.parameters << ", " << r.quantity);
     CHECK(r.parameters.find(',') == std::string::npos);
+    CHECK(r.variant.find(',') == std::string::npos);
     CHECK(std::isfinite(r.error.rmse));
     CHECK(r.error.rmse < (r.quantity == kBentQuantity ? 60 : 0.6));
   }
+}
+
+TEST_CASE("panels of forms hold bin means, and the forms of their kind of AO", "[comparison]") {
+  const Surface surface = build_surface(make_synth_map("flat", 32, Boundary::tile, 0.1));
+  const DepthBuffer depth = make_depth_buffer(surface);
+  const std::vector<ComparedAlbedo> albedos{{.label = "0.5", .reflectance = TexelVector(32 * 32, 0.5)}};
+  const ComparedScene scene{.surface = surface, .depth = depth, .albedos = albedos};
+  Estimate estimate;
+  estimate.sky_view_factor = estimate.ambient_occlusion = Map(32, 32, 0.25F);
+  for (std::size_t i = 512; i < 1024; ++i) estimate.sky_view_factor.values[i] = 0.75F;
+  estimate.ambient_occlusion.values[7] = 0.99F;  // alone in its bin: not drawn
+  ComparisonReference reference;
+  reference.totals = {Map(32, 32, 0.5F)};
+  for (std::size_t i = 0; i < 512; ++i) reference.totals[0].values[i] = i % 2 == 0 ? 0.4F : 0.2F;
+  const std::vector<FormPanel> panels = make_form_panels("mine", estimate, scene, reference);
+  REQUIRE(panels.size() == 2);
+  CHECK(panels[0].kind == AoKind::sky_view_factor);
+  REQUIRE(panels[0].measured.size() == 2);
+  CHECK(panels[0].measured[0].ao == Approx(0.25));
+  CHECK(panels[0].measured[0].mean == Approx(0.3));
+  CHECK(panels[0].measured[0].low == Approx(0.2));
+  CHECK(panels[0].measured[0].high == Approx(0.4));
+  REQUIRE(panels[0].curves.size() == 4);  // no n is known
+  CHECK(panels[0].curves[1].label == "eq. 12");
+  CHECK(panels[0].curves[1].points[1][1] == Approx(0.75 / (1 - 0.5 * 0.25)));
+  REQUIRE(panels[1].measured.size() == 1);
+  REQUIRE(panels[1].curves.size() == 1);
+  CHECK(panels[1].curves[0].form == "notes");
 }
 
 TEST_CASE("closed forms on the reference's own A are what the models say", "[comparison][slow]") {

@@ -63,7 +63,7 @@ TEST_CASE("the planned walk that is compared is the one that simulations make", 
     Request request;
     request.wanted = {.sky = true, .totals = {{.constant = {0.5}}}, .bounces = 2};
     request.accuracy.error = 0.005;
-    CHECK(contender.run().sky_view_factor == solve(wall, request).sky_view_factor);
+    CHECK(contender.run({}).sky_view_factor == solve(wall, request).sky_view_factor);
     compared = true;
   }
   CHECK(compared);

@@ -45,7 +45,10 @@ std::string in_words(const GtaoOptions& options) {
 
 /// `options` has its reach in reliefs.
 ScreenSpaceMethod gtao_line(const GtaoOptions& options, bool shown = false) {
-  return {"gtao", in_words(options), shown, [options](const DepthBuffer& depth, const Albedos&) {
+  return {.name = "gtao",
+          .parameters = in_words(options),
+          .shown = shown,
+          .run = [options](const DepthBuffer& depth, const Albedos&) {
             return gtao(depth, in_world_units(options, depth));
           }};
 }
@@ -72,8 +75,10 @@ constexpr double kUsualReach = 1;
 void add_gtao_presets(std::vector<ScreenSpaceMethod>& methods) {
   for (const Preset& preset : kPresets) {
     for (const double reach : {0.5, 1.0, 2.0, 4.0}) {
-      methods.push_back(gtao_line(gtao_preset(preset.slices, preset.steps, reach, DirectionNoise::spatial),
-                                  reach == kUsualReach));
+      const bool is_usual = reach == kUsualReach;
+      methods.push_back(
+          gtao_line(gtao_preset(preset.slices, preset.steps, reach, DirectionNoise::spatial), is_usual));
+      if (is_usual && preset.slices == 3) methods.back().role = kRoleOfGames;
     }
     methods.push_back(gtao_line(gtao_preset(preset.slices, preset.steps, kUsualReach, DirectionNoise::none)));
     methods.push_back(
@@ -112,6 +117,7 @@ void add_gtao_sweeps(std::vector<ScreenSpaceMethod>& methods) {
   GtaoOptions converged = without_noise(64, 1024);
   converged.bent_normal = true;
   methods.push_back(gtao_line(converged, true));
+  methods.back().role = "GTAO converged";
   GtaoOptions thick = without_noise(32, 64);
   for (const double thickness : {0.001, 0.01}) {
     thick.thickness = thickness;
@@ -121,10 +127,12 @@ void add_gtao_sweeps(std::vector<ScreenSpaceMethod>& methods) {
 
 void add_gtao_bounces(std::vector<ScreenSpaceMethod>& methods) {
   const auto add = [&](const GtaoOptions& options, bool shown) {
-    methods.push_back(
-        {"gtao with bounce", in_words(options), shown, [options](const DepthBuffer& depth, const Albedos&) {
-           return gtao_with_bounce(depth, in_world_units(options, depth));
-         }});
+    methods.push_back({.name = "gtao with bounce",
+                       .parameters = in_words(options),
+                       .shown = shown,
+                       .run = [options](const DepthBuffer& depth, const Albedos&) {
+                         return gtao_with_bounce(depth, in_world_units(options, depth));
+                       }});
   };
   add(gtao_preset(3, 3, kUsualReach, DirectionNoise::spatial), true);
   add(gtao_preset(9, 6, kUsualReach, DirectionNoise::spatial), false);
@@ -136,7 +144,10 @@ void add_hbao(std::vector<ScreenSpaceMethod>& methods) {
     std::string words = slices_in_words(options.slices, options.steps, options.reach, options.distribution,
                                         options.sampling, options.noise);
     if (options.attenuated) words += "; attenuated";
-    methods.push_back({"hbao", words, shown, [options](const DepthBuffer& depth, const Albedos&) {
+    methods.push_back({.name = "hbao",
+                       .parameters = words,
+                       .shown = shown,
+                       .run = [options](const DepthBuffer& depth, const Albedos&) {
                          return hbao(depth, in_world_units(options, depth));
                        }});
   };
@@ -163,10 +174,13 @@ void add_ambient_transfer(std::vector<ScreenSpaceMethod>& methods) {
                         (options.square_root ? "; root" : "; step") + "; reach " +
                         in_digits(static_cast<double>(options.reach));
     if (options.noise == DirectionNoise::spatial) words += "; 16 turns";
-    methods.push_back(
-        {"ambient transfer", words, shown, [options](const DepthBuffer& depth, const Albedos& albedos) {
-           return ambient_transfer(depth, albedos, in_world_units(options, depth));
-         }});
+    methods.push_back({.name = "ambient transfer",
+                       .parameters = words,
+                       .shown = shown,
+                       .finds_totals = true,
+                       .run = [options](const DepthBuffer& depth, const Albedos& albedos) {
+                         return ambient_transfer(depth, albedos, in_world_units(options, depth));
+                       }});
   };
   for (const bool square_root : {false, true}) {
     for (const int tests : {1, 2}) {
@@ -186,7 +200,11 @@ void add_ssdo(std::vector<ScreenSpaceMethod>& methods) {
     std::string words = in_digits(static_cast<double>(options.samples)) + " samples" + "; reach " +
                         in_digits(static_cast<double>(options.reach));
     if (options.noise == DirectionNoise::spatial) words += "; 16 turns";
-    methods.push_back({"ssdo", words, shown, [options](const DepthBuffer& depth, const Albedos& albedos) {
+    methods.push_back({.name = "ssdo",
+                       .parameters = words,
+                       .shown = shown,
+                       .finds_totals = true,
+                       .run = [options](const DepthBuffer& depth, const Albedos& albedos) {
                          return ssdo(depth, albedos, in_world_units(options, depth));
                        }});
   };

@@ -24,6 +24,7 @@ SeenSkyViewFactor<double> deep_seen(const Estimate& estimate) {
 }  // namespace
 
 bool can_evaluate(const ClosedForm& form, const Estimate& estimate) {
+  if (form.both_kinds && !(has(estimate.ambient_occlusion) && has(estimate.sky_view_factor))) return false;
   const bool wants_seen = form.extra == ExtraInput::seen || form.extra == ExtraInput::deep_seen;
   if (wants_seen && !has(estimate.seen)) return false;
   if (form.extra != ExtraInput::none && !has(estimate.sky_view_factor)) return false;
@@ -40,20 +41,23 @@ Map evaluate_closed_form(const ClosedForm& form, const Estimate& estimate, const
   if (form.extra == ExtraInput::expected_seen) expected = expected_seen(estimate.sky_view_factor, surface);
   SeenSkyViewFactor<double> deep{0};
   if (form.extra == ExtraInput::deep_seen) deep = deep_seen(estimate);
+  const auto value_at = [](const Map& map, std::size_t i) {
+    return has(map) ? double{map.values[i]} : std::numeric_limits<double>::quiet_NaN();
+  };
   Map total(surface.width(), surface.height());
   parallel_for(total.height, [&](std::int64_t row) {
     for (std::int64_t i = row * total.width; i < (row + 1) * total.width; ++i) {
       const auto at = static_cast<std::size_t>(i);
-      const double value = double{occlusion.values[at]};
       ModelInputs inputs;
-      inputs.ambient_occlusion = AmbientOcclusion<double>(value);
-      inputs.sky_view_factor = SkyViewFactor<double>(value);
+      inputs.ambient_occlusion = AmbientOcclusion(value_at(estimate.ambient_occlusion, at));
+      inputs.sky_view_factor = SkyViewFactor(value_at(estimate.sky_view_factor, at));
       inputs.expected_seen = expected;
       inputs.deep_seen = deep;
-      if (has(blurred)) inputs.blurred = SeenSkyViewFactor<double>(double{blurred.values[at]});
-      if (has(estimate.seen)) inputs.seen = SeenSkyViewFactor<double>(double{estimate.seen.values[at]});
-      const std::optional<double> found =
-          std::isnan(value) ? std::nullopt : form.evaluate(inputs, albedo.reflectance[at]);
+      inputs.blurred = SeenSkyViewFactor(value_at(blurred, at));
+      inputs.seen = SeenSkyViewFactor(value_at(estimate.seen, at));
+      const std::optional<double> found = std::isnan(double{occlusion.values[at]})
+                                              ? std::nullopt
+                                              : form.evaluate(inputs, albedo.reflectance[at]);
       total.values[at] = found ? static_cast<float>(*found) : std::numeric_limits<float>::quiet_NaN();
     }
   });

@@ -1,5 +1,8 @@
 #include "comparison/compare_methods.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "base/progress.h"
 #include "comparison/closed_form_totals.h"
 
@@ -13,10 +16,9 @@ class RowWriter {
             std::vector<ComparisonRow>& rows)
       : scene_(scene), reference_(reference), rows_(rows) {}
 
-  void add(const Contender& contender, const Estimate& estimate, Cost cost) const {
+  void add_occlusion(const Contender& contender, const Estimate& estimate, Cost cost) const {
     const auto write = [&](const std::string& quantity, const ErrorStatistics& error) {
-      rows_.push_back(
-          {contender.method, contender.parameters, quantity, cost, estimate.samples_per_texel, error});
+      rows_.push_back(row(contender, estimate, "", quantity, cost, error));
     };
     if (estimate.sky_view_factor.size() > 0) {
       write(kSkyQuantity, measure(subtract(estimate.sky_view_factor, reference_.sky_view_factor)));
@@ -29,22 +31,25 @@ class RowWriter {
     }
     if (estimate.half_sky.size() > 0)
       write(kTwoToneQuantity, two_tone_error(estimate.sky_view_factor, estimate.half_sky));
-    for (std::size_t a = 0; a < estimate.totals.size(); ++a) {
-      write(total_quantity(scene_.albedos[a]), measure(subtract(estimate.totals[a], reference_.totals[a])));
-    }
+  }
+
+  /// `estimate` has the total at the a-th albedo alone.
+  void add_total(const Contender& contender, const Estimate& estimate, std::size_t a, Cost cost) const {
+    rows_.push_back(row(contender, estimate, "", total_quantity(scene_.albedos[a]), cost,
+                        measure(subtract(estimate.totals[0], reference_.totals[a]))));
   }
 
   /// The totals that closed forms make of the estimate's AO; each takes as long as the AO and the form.
   void add_closed_forms(const Contender& contender, const Estimate& estimate, Cost cost) const {
-    for (const ClosedForm& form : closed_forms()) {
+    for (const ClosedForm& form : scene_.forms) {
       if (!can_evaluate(form, estimate)) continue;
       for (std::size_t a = 0; a < scene_.albedos.size(); ++a) {
         const Stopwatch watch;
         const Map total = evaluate_closed_form(form, estimate, scene_.surface, scene_.albedos[a]);
         const Cost own = watch.elapsed();
-        rows_.push_back({contender.method, contender.parameters + "; " + form.name,
-                         total_quantity(scene_.albedos[a]), cost + own, estimate.samples_per_texel,
-                         measure(subtract(total, reference_.totals[a]))});
+        rows_.push_back(row(contender, estimate, form.name, total_quantity(scene_.albedos[a]), cost + own,
+                            measure(subtract(total, reference_.totals[a]))));
+        rows_.back().outside_share = share_outside(total);
       }
     }
   }
@@ -55,14 +60,37 @@ class RowWriter {
     const auto add = [&](const Image<Vector3>& direction, const char* name) {
       Map half = estimate.sky_view_factor;
       for (std::size_t i = 0; i < half.size(); ++i) half.values[i] *= (1 + direction.values[i].y) / 2;
-      rows_.push_back({contender.method, contender.parameters + "; " + name, kTwoToneQuantity, cost,
-                       estimate.samples_per_texel, two_tone_error(estimate.sky_view_factor, half)});
+      rows_.push_back(row(contender, estimate, name, kTwoToneQuantity, cost,
+                          two_tone_error(estimate.sky_view_factor, half)));
     };
     add(scene_.surface.normal, "by normal");
     if (estimate.bent_normal.size() > 0) add(estimate.bent_normal, "by bent normal");
   }
 
  private:
+  static ComparisonRow row(const Contender& contender, const Estimate& estimate, const std::string& variant,
+                           const std::string& quantity, Cost cost, const ErrorStatistics& error) {
+    return {.method = contender.method,
+            .parameters = contender.parameters,
+            .variant = variant,
+            .quantity = quantity,
+            .cost = cost,
+            .samples_per_texel = estimate.samples_per_texel,
+            .error = error};
+  }
+
+  /// Of the texels of the surface, those for which a closed form has no value.
+  double share_outside(const Map& total) const {
+    std::size_t present = 0;
+    std::size_t outside = 0;
+    for (std::size_t i = 0; i < total.size(); ++i) {
+      if (std::isnan(reference_.sky_view_factor.values[i])) continue;
+      ++present;
+      outside += std::isnan(total.values[i]) ? 1 : 0;
+    }
+    return present > 0 ? static_cast<double>(outside) / static_cast<double>(present) : 0;
+  }
+
   /// Of the three channels together. Red is 1 from the one half and 0.3 from the other, blue the reverse,
   /// green 0.6 from both; all over their mean.
   ErrorStatistics two_tone_error(const Map& sky, const Map& half) const {
@@ -86,6 +114,57 @@ class RowWriter {
   std::vector<ComparisonRow>& rows_;
 };
 
+/// The errors of the totals at the last albedo, of each form at the head of the report.
+void add_total_errors(const ComparedScene& scene, const ComparisonReference& reference,
+                      const std::string& role, const Estimate& estimate, Comparison& comparison) {
+  for (const AnsweringForm& answering : answering_forms(scene.forms)) {
+    ErrorMap& error = comparison.total_errors.emplace_back();
+    error.title = role;
+    error.subtitle = answering.label;
+    for (const ClosedForm& form : scene.forms) {
+      if (form.name != answering.form || !can_evaluate(form, estimate)) continue;
+      const Map total = evaluate_closed_form(form, estimate, scene.surface, scene.albedos.back());
+      const Map differences = subtract(total, reference.totals.back());
+      error.error = measure(differences);
+      error.differences = thin_out(differences);
+    }
+  }
+}
+
+/// What stands at the head of the report.
+void add_role(const ComparedScene& scene, const ComparisonReference& reference, const Contender& contender,
+              const Estimate& estimate, Comparison& comparison) {
+  add_total_errors(scene, reference, contender.role, estimate, comparison);
+  const bool is_drawn = comparison.panels.empty() || contender.role == kRoleOfGames;
+  if (!is_drawn) return;
+  for (FormPanel& panel : make_form_panels(contender.role, estimate, scene, reference))
+    comparison.panels.push_back(std::move(panel));
+}
+
+/// The reference's own maps, as if a method had found them.
+Estimate exact_estimate(const ComparisonReference& reference) {
+  Estimate exact;
+  exact.sky_view_factor = reference.sky_view_factor;
+  exact.ambient_occlusion = reference.ambient_occlusion;
+  exact.bent_normal = reference.bent_normal;
+  exact.seen = reference.seen;
+  return exact;
+}
+
+/// The totals at each albedo, timed one by one; what its AO takes is known.
+void compare_totals(const ComparedScene& scene, const RowWriter& writer, const Contender& contender,
+                    Cost occlusion, Comparison& comparison) {
+  StageCost stage{contender.method, contender.parameters, occlusion.core, {}};
+  for (std::size_t a = 0; a < scene.albedos.size(); ++a) {
+    const std::vector<ComparedAlbedo> one{scene.albedos[a]};
+    Estimate estimate;
+    const Cost cost = least_cost([&] { estimate = contender.run(one); });
+    writer.add_total(contender, estimate, a, cost);
+    stage.bounce_core_seconds.push_back(std::max(0.0, cost.core - occlusion.core));
+  }
+  if (contender.finds_occlusion) comparison.stages.push_back(std::move(stage));
+}
+
 }  // namespace
 
 std::string total_quantity(const ComparedAlbedo& albedo) { return "total_irradiance_" + albedo.label; }
@@ -94,32 +173,41 @@ Comparison compare_methods(const ComparedScene& scene, const ComparisonReference
                            const std::vector<Contender>& contenders, const Watch& watch) {
   Comparison comparison;
   const RowWriter writer(scene, reference, comparison.rows);
+  const Estimate exact = exact_estimate(reference);
+  const Contender itself{.method = kExactMethod,
+                         .parameters = std::to_string(reference.azimuths) + " azimuths",
+                         .role = kExactMethod};
+  writer.add_closed_forms(itself, exact, reference.cost);
+  writer.add_two_tone(itself, exact, reference.cost);
+  comparison.roles.push_back({itself.role, itself.method, itself.parameters, reference.cost.core});
+  add_role(scene, reference, itself, exact, comparison);
+
   Progress progress("methods", static_cast<std::int64_t>(contenders.size()), watch);
   for (const Contender& contender : contenders) {
     progress.throw_if_stopped();
     Estimate estimate;
-    const Cost cost = least_cost([&] { estimate = contender.run(); });
-    writer.add(contender, estimate, cost);
+    Cost cost;
+    if (contender.finds_occlusion) {
+      cost = least_cost([&] { estimate = contender.run({}); });
+      writer.add_occlusion(contender, estimate, cost);
+    }
+    if (contender.finds_totals) compare_totals(scene, writer, contender, cost, comparison);
     if (contender.shown) {
       writer.add_closed_forms(contender, estimate, cost);
       writer.add_two_tone(contender, estimate, cost);
       Map differences = subtract(estimate.sky_view_factor, reference.sky_view_factor);
       const ErrorStatistics error = measure(differences);
-      comparison.shown.push_back({.method = contender.method,
-                                  .parameters = contender.parameters,
+      comparison.shown.push_back({.title = contender.method,
+                                  .subtitle = contender.parameters,
                                   .error = error,
                                   .differences = std::move(differences)});
     }
+    if (!contender.role.empty()) {
+      comparison.roles.push_back({contender.role, contender.method, contender.parameters, cost.core});
+      add_role(scene, reference, contender, estimate, comparison);
+    }
     progress.add(1);
   }
-  Estimate exact;
-  exact.sky_view_factor = reference.sky_view_factor;
-  exact.ambient_occlusion = reference.ambient_occlusion;
-  const std::string azimuths = std::to_string(reference.azimuths) + " azimuths";
-  exact.bent_normal = reference.bent_normal;
-  const Contender itself{kExactMethod, azimuths, false, {}};
-  writer.add_closed_forms(itself, exact, reference.cost);
-  writer.add_two_tone(itself, exact, reference.cost);
   return comparison;
 }
 

@@ -5,6 +5,7 @@
 
 #include "comparison/contenders.h"
 #include "comparison/error_statistics.h"
+#include "comparison/form_panels.h"
 #include "comparison/reference.h"
 
 namespace heightlight {
@@ -20,33 +21,56 @@ std::string total_quantity(const ComparedAlbedo& albedo);  ///< "total_irradianc
 
 /// One line of the table.
 struct ComparisonRow {
-  std::string method;
-  std::string parameters;
-  std::string quantity;
-  Cost cost;
+  std::string method = {};
+  std::string parameters = {};
+  std::string variant = {};  ///< what was made of the method's result: a closed form's name; empty: nothing
+  std::string quantity = {};
+  Cost cost = {};                ///< of that quantity: what a method finds beside it costs nothing here
   double samples_per_texel = 0;  ///< depths or rays; 0 where a method does not count them
-  ErrorStatistics error;
+  ErrorStatistics error = {};
+  double outside_share = 0;  ///< of the texels that have AO: outside a closed form's domain, and in no error
 };
 
 /// The method whose rows say what closed forms err by where they are fed the reference's own AO.
 inline constexpr const char* kExactMethod = "exact AO";
 
-/// A contender's sky view factor − the reference's.
+/// What a map differs by from the reference's.
 struct ErrorMap {
+  std::string title = {};     ///< the method
+  std::string subtitle = {};  ///< its parameters, or the form that was applied
+  ErrorStatistics error = {};
+  Map differences = {};
+};
+
+/// A contender that stands at the head of the report.
+struct RoleOfMethod {
+  std::string role;
   std::string method;
   std::string parameters;
-  ErrorStatistics error;
-  Map differences;
+  double core_seconds = 0;  ///< for its AO
+};
+
+/// What a method of several stages takes for each.
+struct StageCost {
+  std::string method;
+  std::string parameters;
+  double occlusion_core_seconds = 0;             ///< AO, and direct light from it
+  std::vector<double> bounce_core_seconds = {};  ///< beside that, per albedo
 };
 
 struct Comparison {
   std::vector<ComparisonRow> rows;
-  std::vector<ErrorMap> shown;
+  std::vector<ErrorMap> shown;         ///< of A, of the contenders that are shown
+  std::vector<RoleOfMethod> roles;     ///< exact AO first
+  std::vector<ErrorMap> total_errors;  ///< at the last albedo: role by role, form by form; thinned
+                                       ///< out, 0 × 0 where the role's AO does not tell what a form wants
+  std::vector<FormPanel> panels;       ///< of the exact AO, then of GTAO as games run it
+  std::vector<StageCost> stages;
 };
 
 /// Runs all contenders and compares them with the reference: A, α, the bent normal and the totals, as far as
-/// each has them. Closed forms are tried on the A (or α, as they want) of those that are shown, and of the
-/// reference itself.
+/// each has them. The closed forms are tried on the A (or α, as they want) of those that are shown, and of
+/// the reference itself.
 Comparison compare_methods(const ComparedScene& scene, const ComparisonReference& reference,
                            const std::vector<Contender>& contenders, const Watch& watch);
 

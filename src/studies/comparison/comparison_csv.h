@@ -1,11 +1,15 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "comparison/compare_methods.h"
 
 namespace heightlight {
+
+/// "8 azimuths; fineness 8; cubic": how the table and plots name what stands in a row.
+std::string parameters_and_variant(const ComparisonRow& row);
 
 /// Writes `method,parameters,quantity,seconds,core_seconds,samples_per_texel,rmse,bias,p99,max,psnr`. Bent
 /// normals are in degrees and have no psnr; samples_per_texel is empty where a method does not count them.

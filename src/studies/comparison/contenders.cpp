@@ -39,15 +39,17 @@ Estimate find_sky_alone(const ComparedScene& scene, const Accuracy& accuracy) {
 }
 
 /// The totals, and nothing else: what finding A alone costs is another contender's.
-Estimate find_totals_alone(const ComparedScene& scene, const Accuracy& accuracy) {
+Estimate find_totals_alone(const ComparedScene& scene, const Accuracy& accuracy,
+                           const std::vector<ComparedAlbedo>& albedos) {
   Wanted wanted;
-  for (const ComparedAlbedo& albedo : scene.albedos) wanted.totals.push_back(albedo.albedo());
+  for (const ComparedAlbedo& albedo : albedos) wanted.totals.push_back(albedo.albedo());
   return solve_scene(scene, wanted, accuracy);
 }
 
-Estimate run_screen_space(const ComparedScene& scene, const ScreenSpaceMethod& method) {
+Estimate run_screen_space(const ComparedScene& scene, const ScreenSpaceMethod& method,
+                          const std::vector<ComparedAlbedo>& compared) {
   std::vector<SurfaceAlbedo> albedos;
-  for (const ComparedAlbedo& albedo : scene.albedos)
+  for (const ComparedAlbedo& albedo : compared)
     albedos.push_back(
         {.constant = albedo.reflectance[0], .map = albedo.constant() ? nullptr : &albedo.varying});
   ScreenSpaceView view = method.run(scene.depth, albedos);
@@ -62,39 +64,54 @@ Estimate run_screen_space(const ComparedScene& scene, const ScreenSpaceMethod& m
   return estimate;
 }
 
+/// A contender that finds A and α, as horizon walks and rays do together.
+Contender sky_contender(const ComparedScene& scene, const std::string& method, const std::string& parameters,
+                        const Accuracy& accuracy) {
+  return {.method = method, .parameters = parameters, .run = [scene, accuracy](const auto&) {
+            return find_sky_alone(scene, accuracy);
+          }};
+}
+
+Contender totals_contender(const ComparedScene& scene, const std::string& method,
+                           const std::string& parameters, const Accuracy& accuracy) {
+  return {.method = method,
+          .parameters = parameters,
+          .finds_occlusion = false,
+          .finds_totals = true,
+          .run = [scene, accuracy](const std::vector<ComparedAlbedo>& albedos) {
+            return find_totals_alone(scene, accuracy, albedos);
+          }};
+}
+
 void add_rays(const ComparedScene& scene, std::vector<Contender>& contenders) {
   for (const int count : {4, 16, 64, 256}) {
-    contenders.push_back({.method = "rays",
-                          .parameters = fmt::format("{} rays", count),
-                          .shown = count == 64,
-                          .run = [scene, count] { return find_sky_alone(scene, by_rays(scene, count)); }});
+    contenders.push_back(sky_contender(scene, "rays", fmt::format("{} rays", count), by_rays(scene, count)));
+    contenders.back().shown = count == 64;
   }
   for (const int count : {16, 64, 256}) {
-    contenders.push_back({.method = "rays with links",
-                          .parameters = fmt::format("{} rays", count),
-                          .run = [scene, count] { return find_totals_alone(scene, by_rays(scene, count)); }});
+    contenders.push_back(
+        totals_contender(scene, "rays with links", fmt::format("{} rays", count), by_rays(scene, count)));
   }
 }
 
 void add_walks(const ComparedScene& scene, std::vector<Contender>& contenders) {
   for (const auto& [azimuths, fineness] : {std::pair{4, 8}, {8, 8}, {16, 8}, {16, 16}, {32, 16}, {64, 32}}) {
     const WalkOptions walk{.azimuths = azimuths, .fineness = fineness, .peak_share = 0.3F};
-    contenders.push_back(
-        {.method = "horizon walk",
-         .parameters = fmt::format("{} azimuths; fineness {}", azimuths, fineness),
-         .shown = azimuths == 8,
-         .run = [scene, walk] { return find_sky_alone(scene, by_fixed_walk(scene, walk)); }});
+    contenders.push_back(sky_contender(scene, "horizon walk",
+                                       fmt::format("{} azimuths; fineness {}", azimuths, fineness),
+                                       by_fixed_walk(scene, walk)));
+    if (azimuths != 8) continue;
+    contenders.back().shown = true;
+    contenders.back().role = "horizon walk";
   }
   const auto planned = [&](double error) { return Accuracy{.error = error, .seed = scene.seed}; };
   for (const double error : {0.01, 0.005, 0.002, 0.001}) {
-    contenders.push_back({.method = "horizon walk planned",
-                          .parameters = fmt::format("error {:g}", error),
-                          .run = [scene, how = planned(error)] { return find_sky_alone(scene, how); }});
+    contenders.push_back(
+        sky_contender(scene, "horizon walk planned", fmt::format("error {:g}", error), planned(error)));
   }
   for (const double error : {0.02, 0.01, 0.005, 0.002}) {
-    contenders.push_back({.method = "horizon walk with bounces",
-                          .parameters = fmt::format("error {:g}", error),
-                          .run = [scene, how = planned(error)] { return find_totals_alone(scene, how); }});
+    contenders.push_back(totals_contender(scene, "horizon walk with bounces",
+                                          fmt::format("error {:g}", error), planned(error)));
   }
 }
 
@@ -108,7 +125,11 @@ std::vector<Contender> make_contenders(const ComparedScene& scene) {
     contenders.push_back({.method = method.name,
                           .parameters = method.parameters,
                           .shown = method.shown,
-                          .run = [scene, &method] { return run_screen_space(scene, method); }});
+                          .role = method.role,
+                          .finds_totals = method.finds_totals,
+                          .run = [scene, &method](const std::vector<ComparedAlbedo>& albedos) {
+                            return run_screen_space(scene, method, albedos);
+                          }});
   }
   return contenders;
 }

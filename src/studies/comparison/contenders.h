@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "comparison/reference.h"
+#include "heightlight/closed_forms.h"
 #include "heightlight/screenspace.h"
 
 namespace heightlight {
@@ -24,8 +25,11 @@ struct Estimate {
 struct Contender {
   std::string method;
   std::string parameters;
-  bool shown = false;  ///< its errors are drawn, and closed forms are tried on it
-  std::function<Estimate()> run;
+  bool shown = false;           ///< its errors are drawn, and closed forms are tried on it
+  std::string role = {};        ///< what it stands for at the head of the report; empty: it is not there
+  bool finds_occlusion = true;  ///< given no albedos
+  bool finds_totals = false;    ///< of the albedos that it is given, beside its occlusion if it has one
+  std::function<Estimate(const std::vector<ComparedAlbedo>& albedos)> run = {};
 };
 
 /// What contenders work on; all of it must outlive them.
@@ -33,7 +37,8 @@ struct ComparedScene {
   const Surface& surface;
   const DepthBuffer& depth;
   const std::vector<ComparedAlbedo>& albedos;
-  std::uint64_t memory = ~0ULL;  ///< bytes that a method may take
+  std::vector<ClosedForm> forms = closed_forms();  ///< that are tried on AO
+  std::uint64_t memory = ~0ULL;                    ///< bytes that a method may take
   std::uint64_t seed = 1;
 };
 

@@ -32,6 +32,16 @@ Map angles_deg(const Image<Vector3>& vectors, const Image<Vector3>& reference) {
   return angles;
 }
 
+Map thin_out(const Map& map) {
+  constexpr int kSide = 256;
+  const int step = (std::max(map.width, map.height) + kSide - 1) / kSide;
+  Map thin((map.width + step - 1) / step, (map.height + step - 1) / step);
+  for (int row = 0; row < thin.height; ++row) {
+    for (int column = 0; column < thin.width; ++column) thin(row, column) = map(row * step, column * step);
+  }
+  return thin;
+}
+
 ErrorStatistics measure(const Map& differences) {
   std::vector<float> sizes;
   double squares = 0;

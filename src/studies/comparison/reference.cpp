@@ -120,15 +120,17 @@ void find_totals(const Surface& surface, const ReferenceOptions& options, Compar
   const Stopwatch watch;
   Request request;
   for (const ComparedAlbedo& albedo : options.albedos) request.wanted.totals.push_back(albedo.albedo());
+  request.wanted.seen = true;
   request.accuracy = {.error = kTotalError, .seed = options.seed};
   request.limits.memory = options.memory;
   request.watch = options.watch;
-  const Results results = solve(surface, request);
+  Results results = solve(surface, request);
   reference.total_cost = watch.elapsed();
   reference.total_evidence = results.evidence;
   for (const std::vector<TexelVector>& channels : results.totals) {
     reference.totals.push_back(to_map(channels[0], surface));
   }
+  reference.seen = std::move(results.seen);
 }
 
 }  // namespace

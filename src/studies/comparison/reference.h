@@ -40,6 +40,7 @@ struct ComparisonReference {
   Image<Vector3> bent_normal;
   Map half_sky;             ///< E/π under a sky that shines only from y > 0, by exact walks
   std::vector<Map> totals;  ///< E/π per albedo, by planned horizon walks
+  Map seen;                 ///< n, from the total at kSeenAlbedo, likewise
   Cost cost;                ///< of the exact walks
   Cost total_cost;
   Evidence total_evidence;  ///< of the totals

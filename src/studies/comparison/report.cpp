@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 
+#include "comparison/comparison_csv.h"
 #include "comparison/pareto_front.h"
+#include "comparison/report_answer.h"
 #include "files/output_file.h"
 
 namespace heightlight {
@@ -14,26 +15,20 @@ namespace {
 
 constexpr double kErrors[] = {0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001};
 
-/// A name as it is, whatever marks it has.
-std::string as_markdown(const std::string& name) {
-  std::string text;
-  for (const char c : name) {
-    if (std::string_view("\\`*_{}[]<>()#+-!|&~").find(c) != std::string_view::npos) text += '\\';
-    text += c;
-  }
-  return text;
-}
-
-void write_reference(std::FILE* file, const ReportInput& input) {
-  const ComparisonReference& reference = input.reference;
+void write_map(std::FILE* file, const ReportInput& input) {
   const Surface& surface = input.scene.surface;
-  fmt::print(file, "# Methods compared on {}\n\n", as_markdown(input.map_name));
+  fmt::print(file, "# {}: what closed forms make of ambient occlusion\n\n", as_markdown(input.map_name));
   fmt::print(file, "{} × {} texels of {:g} × {:g}, relief {:g}, boundary {}.\n\n", surface.width(),
              surface.height(), surface.map.spacing.x, surface.map.spacing.y, relief(surface.map),
              to_string(surface.map.boundary));
   for (const Warning& warning : input.warnings)
     fmt::print(file, "* Warning: {}\n", as_markdown(warning.message));
-  fmt::print(file, "{}## The reference\n\n", input.warnings.empty() ? "" : "\n");
+  if (!input.warnings.empty()) std::fputc('\n', file);
+}
+
+void write_reference(std::FILE* file, const ReportInput& input) {
+  const ComparisonReference& reference = input.reference;
+  fmt::print(file, "## The reference\n\n");
   fmt::print(
       file,
       "A and bent normals: exact walks along {} azimuths from every texel ({:.3g} core-seconds). On {} "
@@ -56,8 +51,9 @@ void write_reference(std::FILE* file, const ReportInput& input) {
 }
 
 void write_row(std::FILE* file, const ComparisonRow& row) {
-  fmt::print(file, "{} ({}) | {:.3g} | {:.2g} | {:+.2g} | {:.2g} |\n", row.method, row.parameters,
-             row.cost.core, row.error.rmse, row.error.bias, row.error.p99);
+  fmt::print(file, "{} ({}) | {:.3g} | {:.2g} | {:+.2g} | {:.2g} |\n", row.method,
+             as_markdown(parameters_and_variant(row)), row.cost.core, row.error.rmse, row.error.bias,
+             row.error.p99);
 }
 
 void write_cheapest(std::FILE* file, const ReportInput& input, const std::string& quantity) {
@@ -77,61 +73,84 @@ void write_cheapest(std::FILE* file, const ReportInput& input, const std::string
   std::fputc('\n', file);
 }
 
+const ComparisonRow* find_row(const ReportInput& input, const ErrorMap& method, const std::string& variant,
+                              const std::string& quantity) {
+  for (const ComparisonRow& row : input.comparison.rows) {
+    if (row.method == method.title && row.parameters == method.subtitle && row.variant == variant &&
+        row.quantity == quantity)
+      return &row;
+  }
+  return nullptr;
+}
+
 void write_shown(std::FILE* file, const ReportInput& input) {
   fmt::print(
       file,
       "## The methods drawn: {}\n\n| method | core-seconds | RMSE | bias | p99 |\n|---|---|---|---|---|\n",
       kSkyQuantity);
   for (const ErrorMap& shown : input.comparison.shown) {
-    for (const ComparisonRow& row : input.comparison.rows) {
-      if (row.method != shown.method || row.parameters != shown.parameters || row.quantity != kSkyQuantity)
-        continue;
+    if (const ComparisonRow* row = find_row(input, shown, "", kSkyQuantity)) {
       fmt::print(file, "| ");
-      write_row(file, row);
+      write_row(file, *row);
     }
   }
   std::fputc('\n', file);
 }
 
-/// RMSE of a closed form on some AO; NaN where it was not tried.
-double form_error(const ReportInput& input, const std::string& method, const std::string& parameters,
-                  const std::string& quantity) {
-  for (const ComparisonRow& row : input.comparison.rows) {
-    if (row.method == method && row.parameters == parameters && row.quantity == quantity)
-      return row.error.rmse;
+/// What was made of the methods' AO, in the order of the list of forms; first of all what they make
+/// themselves.
+std::vector<std::string> tried_variants(const ReportInput& input, const std::string& quantity) {
+  std::vector<std::string> variants{""};
+  for (const ClosedForm& form : input.scene.forms) {
+    const auto& rows = input.comparison.rows;
+    if (std::any_of(rows.begin(), rows.end(), [&](const ComparisonRow& row) {
+          return row.variant == form.name && row.quantity == quantity;
+        }))
+      variants.push_back(form.name);
   }
-  return std::nan("");
-}
-
-/// Names of the closed forms that were tried on the exact AO, as they follow its parameters: "; direct".
-std::vector<std::string> tried_forms(const ReportInput& input, const std::string& quantity) {
-  std::vector<std::string> forms;
-  for (const ComparisonRow& row : input.comparison.rows) {
-    if (row.method != kExactMethod || row.quantity != quantity) continue;
-    forms.push_back(row.parameters.substr(row.parameters.find(';')));
-  }
-  return forms;
+  return variants;
 }
 
 /// How much of a total's error is the closed form's: that on the exact AO beside that on each method's.
 void write_forms(std::FILE* file, const ReportInput& input, const ComparedAlbedo& albedo) {
   const std::string quantity = total_quantity(albedo);
-  const std::vector<std::string> forms = tried_forms(input, quantity);
-  fmt::print(file, "## Closed forms, RMSE: {}\n\n| AO |", quantity);
-  for (const std::string& form : forms) fmt::print(file, " {} |", form.substr(2));
+  const std::vector<std::string> variants = tried_variants(input, quantity);
+  fmt::print(file, "## All forms on each method's AO, RMSE: {}\n\n| AO |", quantity);
+  for (const std::string& variant : variants)
+    fmt::print(file, " {} |", variant.empty() ? "its own" : variant);
   fmt::print(file, "\n|---|");
-  for (std::size_t i = 0; i < forms.size(); ++i) fmt::print(file, "---|");
+  for (std::size_t i = 0; i < variants.size(); ++i) fmt::print(file, "---|");
   std::fputc('\n', file);
-  const auto write_line = [&](const std::string& method, const std::string& parameters) {
-    fmt::print(file, "| {} ({}) |", method, parameters);
-    for (const std::string& form : forms) {
-      const double error = form_error(input, method, parameters + form, quantity);
-      fmt::print(file, "{} |", std::isnan(error) ? "" : fmt::format(" {:.4f}", error));
+  const auto write_line = [&](const ErrorMap& method) {
+    fmt::print(file, "| {} ({}) |", method.title, method.subtitle);
+    for (const std::string& variant : variants) {
+      const ComparisonRow* row = find_row(input, method, variant, quantity);
+      fmt::print(file, "{} |", row ? fmt::format(" {:.4f}", row->error.rmse) : "");
     }
     std::fputc('\n', file);
   };
-  write_line(kExactMethod, std::to_string(input.reference.azimuths) + " azimuths");
-  for (const ErrorMap& shown : input.comparison.shown) write_line(shown.method, shown.parameters);
+  write_line({.title = kExactMethod,
+              .subtitle = std::to_string(input.reference.azimuths) + " azimuths",
+              .error = {},
+              .differences = {}});
+  for (const ErrorMap& shown : input.comparison.shown) write_line(shown);
+  std::fputc('\n', file);
+}
+
+/// File 001, table 1: what the stages take apart.
+void write_stages(std::FILE* file, const ReportInput& input) {
+  if (input.comparison.stages.empty()) return;
+  fmt::print(file, "## Stages, core-seconds\n\n| method | AO and direct light |");
+  for (const ComparedAlbedo& albedo : input.scene.albedos)
+    fmt::print(file, " bounce, albedo {} |", albedo.label);
+  fmt::print(file, "\n|---|---|");
+  for (std::size_t a = 0; a < input.scene.albedos.size(); ++a) fmt::print(file, "---|");
+  std::fputc('\n', file);
+  for (const StageCost& stage : input.comparison.stages) {
+    fmt::print(file, "| {} ({}) | {:.2g} |", stage.method, stage.parameters, stage.occlusion_core_seconds);
+    for (const double seconds : stage.bounce_core_seconds) fmt::print(file, " {:.2g} |", seconds);
+    std::fputc('\n', file);
+  }
   std::fputc('\n', file);
 }
 
@@ -139,6 +158,8 @@ void write_forms(std::FILE* file, const ReportInput& input, const ComparedAlbedo
 
 void write_report(const std::filesystem::path& path, const ReportInput& input) {
   write_file(path, [&](std::FILE* file) {
+    write_map(file, input);
+    write_answer(file, input);
     write_reference(file, input);
     write_cheapest(file, input, kSkyQuantity);
     for (const ComparedAlbedo& albedo : input.scene.albedos) {
@@ -146,6 +167,7 @@ void write_report(const std::filesystem::path& path, const ReportInput& input) {
     }
     write_shown(file, input);
     for (const ComparedAlbedo& albedo : input.scene.albedos) write_forms(file, input, albedo);
+    write_stages(file, input);
   });
 }
 

@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "comparison/compare_methods.h"
+#include "comparison/answer.h"
+#include "comparison/user_form_fit.h"
 #include "heightlight/files.h"
 
 namespace heightlight {
@@ -15,13 +16,15 @@ struct ReportInput {
   const ComparedScene& scene;
   const ComparisonReference& reference;
   const Comparison& comparison;
-  Cost depth_cost;  ///< of the depth buffer, which screen-space methods are given
+  const Answer& answer;
+  const std::vector<FormOnMap>& own_forms;  ///< of the user
+  Cost depth_cost;                          ///< of the depth buffer, which screen-space methods are given
   const std::vector<Warning>& warnings;
 };
 
-/// Writes a page of Markdown: warnings, the reference and what it errs by, the cheapest method for each error
-/// and quantity, what each method that is shown errs by, and what the closed forms add. Throws Error naming
-/// the file.
+/// Writes a page of Markdown: warnings, the answer, the reference and what it errs by, the cheapest method
+/// for each error and quantity, what each method that is shown errs by, what the closed forms add, and what
+/// stages take. Throws Error naming the file.
 void write_report(const std::filesystem::path& path, const ReportInput& input);
 
 }  // namespace heightlight

@@ -49,7 +49,8 @@ void add_bins(const FormFamily& family, const JudgedMap& map, std::size_t index,
     point.map = index;
     point.weight = static_cast<double>(bin.count) / texels;
     point.inputs = bin_inputs(map, bin, family.kind);
-    for (const double albedo : target_albedos(family.target)) {
+    point.albedos = target_albedos(family.target);
+    for (const double albedo : point.albedos) {
       point.measured.push_back(measured_in_bin(bin, family.target, albedo));
     }
     points.push_back(std::move(point));
@@ -96,6 +97,7 @@ void add_cells(const FormFamily& family, const JudgedMap& map, std::size_t index
     point.inputs.sky_view_factor = SkyViewFactor(cell.sky / cell.weight);
     point.inputs.blurred = SeenSkyViewFactor(cell.blurred / cell.weight);
     point.inputs.seen = SeenSkyViewFactor(cell.seen / cell.weight);
+    point.albedos = target_albedos(family.target);
     for (const double sum : cell.measured) point.measured.push_back(sum / cell.weight);
     points.push_back(std::move(point));
   }
@@ -114,7 +116,7 @@ std::string describe_point(const FormFamily& family, const FitPoint& point, doub
 std::string find_pole(const FormFamily& family, const std::vector<const FitPoint*>& points,
                       const VectorXd& parameters) {
   for (const FitPoint* point : points) {
-    for (const double albedo : target_albedos(family.target)) {
+    for (const double albedo : point->albedos) {
       if (std::isfinite(family.evaluate(parameters, point->inputs, albedo))) continue;
       return "is not finite at " + describe_point(family, *point, albedo);
     }
@@ -146,28 +148,29 @@ std::vector<FitPoint> collect_points(const FormFamily& family, const std::vector
 
 LeastSquaresFit fit_family(const FormFamily& family, const std::vector<FitPoint>& points,
                            const std::vector<double>& map_weights, std::vector<VectorXd> starts) {
-  const std::vector<double>& albedos = target_albedos(family.target);
+  const std::size_t albedos = points.empty() ? 1 : points[0].albedos.size();
   std::vector<const FitPoint*> used;
   double weight_sum = 0;
   for (const FitPoint& point : points) {
     if (map_weights[point.map] <= 0) continue;
     used.push_back(&point);
-    weight_sum += point.weight * map_weights[point.map] * static_cast<double>(albedos.size());
+    weight_sum += point.weight * map_weights[point.map] * static_cast<double>(albedos);
   }
   const VectorXd published = to_parameters(family.published);
-  const double prior = family.prior_error * std::sqrt(static_cast<double>(albedos.size()));
+  const double prior = family.prior_error * std::sqrt(static_cast<double>(albedos));
   const auto residuals = [&](const VectorXd& parameters, VectorXd& left) {
     Eigen::Index i = 0;
     for (const FitPoint* point : used) {
       const double root = std::sqrt(point->weight * map_weights[point->map]);
-      for (std::size_t k = 0; k < albedos.size(); ++k) {
-        left[i++] = root * (family.evaluate(parameters, point->inputs, albedos[k]) - point->measured[k]);
+      for (std::size_t k = 0; k < albedos; ++k) {
+        left[i++] =
+            root * (family.evaluate(parameters, point->inputs, point->albedos[k]) - point->measured[k]);
       }
     }
     for (Eigen::Index p = 0; i < left.size(); ++p) left[i++] = prior * (parameters[p] / published[p] - 1);
   };
   const ResidualShape shape{.groups = static_cast<Eigen::Index>(used.size()),
-                            .group_size = static_cast<Eigen::Index>(albedos.size()),
+                            .group_size = static_cast<Eigen::Index>(albedos),
                             .priors = prior > 0 ? published.size() : 0,
                             .weight_sum = weight_sum};
   if (starts.empty()) {

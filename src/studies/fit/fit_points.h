@@ -8,12 +8,13 @@
 
 namespace heightlight {
 
-/// Something to fit to: a bin of a map's curves, or a cell of its texels.
+/// Something to fit to: a bin of a map's curves, a cell of its texels, or a texel.
 struct FitPoint {
   ModelInputs inputs;
   double weight = 0;  ///< its share of the map's texels, so that maps count alike
   std::size_t map = 0;
-  std::vector<double> measured;  ///< one per albedo of the target
+  std::vector<double> albedos;   ///< as many for every point
+  std::vector<double> measured;  ///< at each of them
 };
 
 /// Points of the maps that have what the family needs: bins of curves where it is a function of one kind of

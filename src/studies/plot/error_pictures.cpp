@@ -35,16 +35,6 @@ Rgb8 diverging_colour(double share) {
   return colour;
 }
 
-/// At most 256 texels a side: differences of every n-th texel, so that noise stays what it is.
-Map thin_out(const Map& map) {
-  const int step = (std::max(map.width, map.height) + 255) / 256;
-  Map thin((map.width + step - 1) / step, (map.height + step - 1) / step);
-  for (int row = 0; row < thin.height; ++row) {
-    for (int column = 0; column < thin.width; ++column) thin(row, column) = map(row * step, column * step);
-  }
-  return thin;
-}
-
 void send_matrix(gnuplotio::Gnuplot& script, const std::string& name, const Map& map) {
   script << '$' << name << " << e\n";
   for (int row = 0; row < map.height; ++row) {
@@ -77,39 +67,43 @@ Image<Rgb8> difference_picture(const Map& differences) {
 }
 
 void plot_error_sheet(const std::filesystem::path& png, const std::vector<ErrorMap>& maps,
-                      const std::string& title) {
-  constexpr int kPanelWidth = 330;
-  constexpr int kPanelHeight = 385;
+                      const ErrorSheet& sheet) {
+  constexpr int kWidestPanel = 330;
+  constexpr int kNarrowestPanel = 190;
+  constexpr int kSheetWidth = 1400;
   constexpr int kHead = 40;
   constexpr int kFoot = 80;
-  const int columns = std::min(4, std::max(1, static_cast<int>(maps.size())));
+  const int columns = std::min(sheet.columns, std::max(1, static_cast<int>(maps.size())));
   const int rows = std::max(1, (static_cast<int>(maps.size()) + columns - 1) / columns);
-  const double height = kPanelHeight * rows + kHead + kFoot;
+  const int panel_width = std::min(kWidestPanel, std::max(kNarrowestPanel, kSheetWidth / columns));
+  const int panel_height = panel_width + 55;  // with its title
+  const double height = panel_height * rows + kHead + kFoot;
   const GnuplotResult result = run_gnuplot([&](gnuplotio::Gnuplot& script) {
-    script << "set terminal pngcairo size " << kPanelWidth * columns << ',' << height
+    script << "set terminal pngcairo size " << panel_width * columns << ',' << height
            << " font 'sans,10' background 'white'\n";
     for (std::size_t i = 0; i < maps.size(); ++i) {
+      if (maps[i].differences.size() == 0) continue;
       send_matrix(script, "map" + std::to_string(i), thin_out(maps[i].differences));
     }
     send_palette(script);
-    script << "set encoding utf8\nset multiplot title " << gnuplot_quoted(title)
+    script << "set encoding utf8\nset multiplot title " << gnuplot_quoted(sheet.title)
            << " font ':Bold,14' noenhanced\n"
            << "set cbrange [" << -kFullDifference << ':' << kFullDifference << "]\n"
            << "unset key\nunset tics\nset cbtics\nset border lw 0.6 lc rgb '#444444'\nset size ratio -1\n"
            << "set colorbox horizontal user origin 0.3," << 50 / height << " size 0.4," << 18 / height
-           << "\nset cblabel 'sky view factor, method − reference'\n";
+           << "\nset cblabel " << gnuplot_quoted(sheet.quantity) << " noenhanced\n";
     for (std::size_t i = 0; i < maps.size(); ++i) {
+      if (maps[i].differences.size() == 0) continue;
       const int row = static_cast<int>(i) / columns;
       const int column = static_cast<int>(i) % columns;
-      const double top = kFoot + kPanelHeight * (rows - row);  // pixels from below
+      const double top = kFoot + panel_height * (rows - row);  // pixels from below
       const Map thin = thin_out(maps[i].differences);
       const std::string rmse =
           fmt::format("RMSE {:.4f}, bias {:+.4f}", maps[i].error.rmse, maps[i].error.bias);
       script << "set lmargin at screen " << (column + 0.03) / columns << "\nset rmargin at screen "
              << (column + 0.97) / columns << "\nset tmargin at screen " << (top - 65) / height
-             << "\nset bmargin at screen " << (top - kPanelHeight + 8) / height << "\nset title "
-             << gnuplot_quoted(maps[i].method) << ".\"\\n\"." << gnuplot_quoted(maps[i].parameters)
-             << ".\"\\n"
+             << "\nset bmargin at screen " << (top - panel_height + 8) / height << "\nset title "
+             << gnuplot_quoted(maps[i].title) << ".\"\\n\"." << gnuplot_quoted(maps[i].subtitle) << ".\"\\n"
              << rmse << "\" noenhanced offset 0,-0.6 font ',8'\n"
              << "set xrange [-0.5:" << thin.width - 0.5 << "]\nset yrange [" << thin.height - 0.5
              << ":-0.5]\n"

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "comparison/compare_methods.h"
@@ -15,8 +16,16 @@ constexpr double kFullDifference = 0.2;
 /// kMissingColour. One pixel per texel.
 Image<Rgb8> difference_picture(const Map& differences);
 
-/// All of them on one sheet, with names and a scale, as PNG. Throws Error naming gnuplot or the file.
+/// What a sheet of error pictures says of itself.
+struct ErrorSheet {
+  std::string title;
+  std::string quantity;  ///< "sky view factor, method − reference"
+  int columns = 4;
+};
+
+/// All maps on one sheet, with names and a scale, as PNG; the place of a map of 0 × 0 stays empty. Throws
+/// Error naming gnuplot or the file.
 void plot_error_sheet(const std::filesystem::path& png, const std::vector<ErrorMap>& maps,
-                      const std::string& title);
+                      const ErrorSheet& sheet);
 
 }  // namespace heightlight
