@@ -18,6 +18,7 @@
 #include "files/staged_output.h"
 #include "heightlight/closed_forms.h"
 #include "heightlight/error.h"
+#include "plot/ratio_plots.h"
 
 namespace heightlight {
 namespace {
@@ -140,7 +141,21 @@ void draw_plots(StagedFolder& folder, const FitReport& report, Plots& plots) {
   const bool by_texel = !report.trial.per_texel.empty();
   const std::vector<JudgedForm>& judged = by_texel ? report.trial.per_texel : report.trial.per_bin;
   draw("errors", [&](const auto& svg, const auto& png) { plot_errors(svg, png, judged); });
+  draw("bounces",
+       [&](const auto& svg, const auto& png) { plot_bounce_fits(svg, png, bounce_fit_input(report)); });
+  draw("ratios", [&](const auto& svg, const auto& png) { plot_ratios(svg, png, report.ratios); });
+  draw("saturation",
+       [&](const auto& svg, const auto& png) { plot_saturation(svg, png, saturation_table(report)); });
   draw("cubic", [&](const auto& svg, const auto& png) { plot_cubics(svg, png, cubic_panel(report)); });
+}
+
+std::vector<std::string> fit_result_names() {
+  std::vector<std::string> names{"models.json", "models.csv", "ratios.csv", "models.glsl", "models.hlsl"};
+  for (const std::string plot : {"fitted", "errors", "bounces", "ratios", "saturation", "cubic"}) {
+    names.push_back(plot + ".svg");
+    names.push_back(plot + ".png");
+  }
+  return names;
 }
 
 void fit(FitOptions& options) {
@@ -151,10 +166,7 @@ void fit(FitOptions& options) {
   const std::vector<UserForm> own = read_user_forms(options.forms.forms, options.forms.file);
   std::vector<std::filesystem::path> inputs = options.curves;
   inputs.push_back(options.forms.file);
-  StagedFolder folder(options.folder, inputs,
-                      {"models.json", "models.csv", "models.glsl", "models.hlsl", "fitted.svg", "fitted.png",
-                       "errors.svg", "errors.png", "cubic.svg", "cubic.png"},
-                      {.file = "models.json"});
+  StagedFolder folder(options.folder, inputs, fit_result_names(), {.file = "models.json"});
   Plots plots;
   FitReport report;
   report.seed = options.run.seed;
@@ -163,11 +175,16 @@ void fit(FitOptions& options) {
   report.families = fit_families(options, report.forms, report.maps);
   report.cubics_three_bounces = cubics_by_albedo(report.maps, "cubic_three_bounces");
   report.cubics_all_bounces = cubics_by_albedo(report.maps, "cubic");
+  report.bounce_fits =
+      fit_bounces(report.maps, options.bootstrap, options.run.seed, terminal_watch(options.run.quiet));
+  for (const JudgedMap& map : report.maps)
+    report.ratios.push_back(find_bounce_ratios(map.name, map.over_alpha));
   report.trial = cross_validate(report.maps, report.forms, terminal_watch(options.run.quiet));
   for (const UserForm& form : own) check_judged(report, form);
   report.floors = find_floors(report.maps);
 
   write_bytes(folder.file("models.csv"), report_csv(report));
+  write_bytes(folder.file("ratios.csv"), ratios_csv(report));
   write_bytes(folder.file("models.glsl"), shader_of_report(report, own, ShaderLanguage::glsl));
   write_bytes(folder.file("models.hlsl"), shader_of_report(report, own, ShaderLanguage::hlsl));
   draw_plots(folder, report, plots);
@@ -201,7 +218,8 @@ void add_fit_command(CLI::App& app) {
       "Maps whose names begin alike, up to the first _ - or . and without digits, are one material; each "
       "material\n"
       "is judged by what was fitted to the others.\n"
-      "Writes models.json, models.csv, models.glsl, models.hlsl, and plots: fitted, errors, cubic.\n"
+      "Writes models.json, models.csv, models.glsl, models.hlsl, ratios.csv (is tau one number?), and\n"
+      "plots: fitted, errors, bounces, ratios, saturation, cubic.\n"
       "Examples:\n"
       "  heightlight fit wall/curves.csv -o models\n"
       "  heightlight fit runs/*/curves.csv -o models\n"

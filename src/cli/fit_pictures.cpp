@@ -1,6 +1,7 @@
 #include "cli/fit_pictures.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 
@@ -11,10 +12,14 @@ constexpr std::size_t kBins = 50;
 
 double shown_albedo(std::size_t k) { return static_cast<double>(k) / 10; }
 
-/// Bin means of all maps together, at ρ = 0, 0.1 … 1: AO, then totals. Rows of NaN where no texel is.
-PlotTable measured_table(const std::vector<JudgedMap>& maps, AoKind kind) {
-  PlotTable sums(kBins, std::vector<double>(12));
+using Columns = std::function<std::vector<double>(const CurveBin&)>;
+
+/// Bins of all maps together: mean AO, then the means of the columns, each map counting alike. Rows of NaN
+/// where no texel is.
+PlotTable pool_bins(const std::vector<JudgedMap>& maps, AoKind kind, const Columns& columns) {
+  PlotTable sums(kBins);
   std::vector<double> weights(kBins);
+  std::size_t count = 1;
   for (const JudgedMap& map : maps) {
     const BounceCurves& curves = kind == AoKind::ambient_occlusion ? map.over_alpha : map.over_sky;
     double texels = 0;
@@ -23,16 +28,32 @@ PlotTable measured_table(const std::vector<JudgedMap>& maps, AoKind kind) {
       const std::size_t place =
           std::min(kBins - 1, static_cast<std::size_t>(clamp_share(bin.ao_mean) * kBins));
       const double weight = static_cast<double>(bin.count) / texels;
+      std::vector<double> row = columns(bin);
+      row.insert(row.begin(), bin.ao_mean);
+      count = std::max(count, row.size());
+      sums[place].resize(std::max(sums[place].size(), row.size()));
+      for (std::size_t c = 0; c < row.size(); ++c) sums[place][c] += weight * row[c];
       weights[place] += weight;
-      sums[place][0] += weight * bin.ao_mean;
-      for (std::size_t k = 0; k <= 10; ++k) sums[place][k + 1] += weight * bin_total(bin, shown_albedo(k));
     }
   }
   for (std::size_t i = 0; i < kBins; ++i) {
-    for (double& sum : sums[i])
-      sum = weights[i] > 0 ? sum / weights[i] : std::numeric_limits<double>::quiet_NaN();
+    if (weights[i] <= 0) {
+      sums[i].assign(count, std::numeric_limits<double>::quiet_NaN());
+      continue;
+    }
+    sums[i].resize(count);
+    for (double& sum : sums[i]) sum /= weights[i];
   }
   return sums;
+}
+
+/// At ρ = 0, 0.1 … 1: AO, then totals.
+PlotTable measured_table(const std::vector<JudgedMap>& maps, AoKind kind) {
+  return pool_bins(maps, kind, [](const CurveBin& bin) {
+    std::vector<double> totals;
+    for (std::size_t k = 0; k <= 10; ++k) totals.push_back(bin_total(bin, shown_albedo(k)));
+    return totals;
+  });
 }
 
 using TotalOfAo = std::function<double(double ao, double albedo)>;
@@ -88,6 +109,39 @@ std::vector<FittedPanel> fitted_panels(const FitReport& report) {
         }));
   }
   return panels;
+}
+
+BounceFitPlotInput bounce_fit_input(const FitReport& report) {
+  constexpr AoKind kAlpha = AoKind::ambient_occlusion;
+  const std::size_t last = report.bounce_fits.empty() ? 0 : report.bounce_fits.back().bounce;
+  BounceFitPlotInput input{.fits = report.bounce_fits, .notes = refitted_notes(report)};
+  input.measured = pool_bins(report.maps, kAlpha, [last](const CurveBin& bin) {
+    std::vector<double> means;
+    for (std::size_t b = 0; b <= last; ++b) means.push_back(bin.bounces[b].mean);
+    return means;
+  });
+  input.spread = pool_bins(report.maps, kAlpha, [](const CurveBin& bin) {
+    return std::vector<double>{bin.bounces[0].p05, bin.bounces[0].p95, bin.bounces[1].p05,
+                               bin.bounces[1].p95};
+  });
+  return input;
+}
+
+PlotTable saturation_table(const FitReport& report) {
+  PlotTable table;
+  const PlotTable pooled = pool_bins(report.maps, AoKind::ambient_occlusion, [](const CurveBin& bin) {
+    std::vector<double> columns{bin.bounces[0].mean, bin.bounces[1].mean};
+    for (std::size_t k = 1; k < 10; ++k) columns.push_back(bin_total(bin, shown_albedo(k)));
+    return columns;
+  });
+  for (std::size_t i = 2; i < pooled.size(); i += 5) {
+    const double missing = 1 - pooled[i][1];
+    if (std::isnan(missing) || missing <= 0.01) continue;
+    const double tau = 1 - pooled[i][2] / missing;
+    for (std::size_t k = 1; k < 10; ++k)
+      table.push_back({shown_albedo(k), (pooled[i][2 + k] - pooled[i][1]) / missing, tau});
+  }
+  return table;
 }
 
 CubicPanel cubic_panel(const FitReport& report) {

@@ -4,12 +4,19 @@
 
 #include "cli/fit_report.h"
 #include "heightlight/closed_forms.h"
+#include "plot/bounce_fit_plots.h"
 #include "plot/fit_plots.h"
 
 namespace heightlight {
 
 /// Forms of AO alone over the bin means of all maps together.
 std::vector<FittedPanel> fitted_panels(const FitReport& report);
+
+/// Single bounces over the bins of all maps together, and what was fitted to them.
+BounceFitPlotInput bounce_fit_input(const FitReport& report);
+
+/// For plot_saturation: from bins of all maps together, at every fifth of α.
+PlotTable saturation_table(const FitReport& report);
 
 CubicPanel cubic_panel(const FitReport& report);
 

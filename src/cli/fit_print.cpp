@@ -22,6 +22,50 @@ void print_parameters(const FittedFamily& fitted) {
              fitted.published_rms);
 }
 
+void print_bounce_fits(const std::vector<BounceFit>& fits) {
+  if (fits.empty()) return;
+  fmt::print("each bounce over alpha, A alpha (1 - alpha)^1.5 exp(-B alpha^C), all three free (file 004)\n");
+  for (const BounceFit& fit : fits) {
+    if (!fit.fault.empty()) {
+      fmt::print("  b = {:<3} {}\n", fit.bounce, fit.fault);
+      continue;
+    }
+    fmt::print("  b = {:<3}", fit.bounce);
+    for (std::size_t c = 0; c < 3; ++c)
+      fmt::print(" {} {:.4g} (95% {:.3g} … {:.3g})", "ABC"[c], fit.constants[c], fit.low[c], fit.high[c]);
+    fmt::print("   RMS {:.2g}, {:.1f} % of the peak\n", fit.rms, 100 * fit.rms / fit.peak);
+  }
+}
+
+/// τ at some α, for a map that has texels there.
+void print_ratios(const std::vector<BounceRatios>& all) {
+  constexpr double kAlphas[] = {0.2, 0.4, 0.6, 0.8};
+  constexpr std::size_t kShown[] = {0, 4, 9};  // E₂/E₁, E₆/E₅, E₁₁/E₁₀
+  const auto print = [](double value) {
+    if (std::isnan(value)) {
+      fmt::print("    -");
+    } else {
+      fmt::print(" {:4.2f}", value);
+    }
+  };
+  fmt::print("is tau one number? E2/E1, E6/E5, E11/E10 | tau by eq. 9 on the data, published, at alpha\n");
+  fmt::print("  {:<26} spread", "");
+  for (const double alpha : kAlphas) fmt::print("  {:<27}", alpha);
+  fmt::print("\n");
+  for (const BounceRatios& ratios : all) {
+    fmt::print("  {:<26}  {:.2f} ", ratios.map, ratios.spread);
+    for (const double alpha : kAlphas) {
+      const RatioBin* bin = find_bin(ratios, alpha);
+      fmt::print(" ");
+      for (const std::size_t b : kShown) print(bin && b < bin->ratios.size() ? bin->ratios[b] : std::nan(""));
+      fmt::print(" |");
+      print(bin ? bin->by_conservation : std::nan(""));
+      print(bin ? bin->published : std::nan(""));
+    }
+    fmt::print("\n");
+  }
+}
+
 void print_errors(const char* title, const std::vector<JudgedForm>& forms) {
   if (forms.empty()) return;
   fmt::print("{}\n  {:26}   ρ = .1     .3     .5     .7     .8     .9   max at .5     .9\n", title, "");
@@ -47,6 +91,8 @@ void print_floors(const std::vector<Floor>& floors) {
 void print_report(const FitReport& report) {
   for (const FittedFamily& fitted : report.families) print_parameters(fitted);
   for (const std::string& reason : explain_distances(report)) fmt::print("{}\n", reason);
+  print_bounce_fits(report.bounce_fits);
+  print_ratios(report.ratios);
   const std::string left_out = report.trial.materials > 1
                                    ? "each of " + std::to_string(report.trial.materials) +
                                          " materials judged by what was fitted without it"

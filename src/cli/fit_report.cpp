@@ -1,5 +1,7 @@
 #include "cli/fit_report.h"
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "base/digits.h"
@@ -59,6 +61,16 @@ Json describe_family(const FittedFamily& fitted) {
       {"rms", fitted.fit.rms},
       {std::string("rms_as_") + start, fitted.published_rms},
       {"bootstrap", {{"drawn", fitted.intervals.unit}, {"draws", fitted.intervals.draws}, {"share", 0.95}}}};
+}
+
+Json describe_bounce_fit(const BounceFit& fit) {
+  if (!fit.fault.empty()) return {{"bounce", fit.bounce}, {"fault", fit.fault}};
+  constexpr const char* kNames[] = {"A", "B", "C"};
+  Json constants = Json::array();
+  for (std::size_t c = 0; c < 3; ++c)
+    constants.push_back(
+        {{"name", kNames[c]}, {"value", fit.constants[c]}, {"low", fit.low[c]}, {"high", fit.high[c]}});
+  return {{"bounce", fit.bounce}, {"constants", constants}, {"rms", fit.rms}, {"peak", fit.peak}};
 }
 
 Json describe_cubics(const std::vector<AlbedoCubic>& cubics) {
@@ -123,6 +135,12 @@ std::string report_json(const FitReport& report) {
   for (const FittedFamily& fitted : report.families) json["families"].push_back(describe_family(fitted));
   json["cubic_by_albedo"] = {{"three_bounces", describe_cubics(report.cubics_three_bounces)},
                              {"all_bounces", describe_cubics(report.cubics_all_bounces)}};
+  json["bounces"] = {{"formula", "E_b/pi = A alpha (1 - alpha)^1.5 exp(-B alpha^C)"},
+                     {"fits", Json::array()}};
+  for (const BounceFit& fit : report.bounce_fits) json["bounces"]["fits"].push_back(describe_bounce_fit(fit));
+  json["ratios"] = Json::array();  // bin by bin in ratios.csv
+  for (const BounceRatios& ratios : report.ratios)
+    json["ratios"].push_back({{"map", ratios.map}, {"spread", ratios.spread}});
   json["cross_validation"] = {{"left_out", report.trial.materials > 1 ? "material" : "nothing"},
                               {"materials", report.trial.materials},
                               {"per_texel", describe_forms(report.trial.per_texel)},
@@ -133,6 +151,26 @@ std::string report_json(const FitReport& report) {
     json["floors"].push_back({{"inputs", floor.inputs}, {"albedos", judged_albedos()}, {"rms", floor.rms}});
   }
   return json_text(json);
+}
+
+std::string ratios_csv(const FitReport& report) {
+  std::size_t most = 0;
+  for (const BounceRatios& ratios : report.ratios) {
+    for (const RatioBin& bin : ratios.bins) most = std::max(most, bin.ratios.size());
+  }
+  const auto field = [](double value) { return std::isnan(value) ? "," : ',' + in_digits(value, 6); };
+  std::string text = "map,alpha,texels,tau,tau_published";
+  for (std::size_t b = 1; b <= most; ++b) text += ",E" + std::to_string(b + 1) + "/E" + std::to_string(b);
+  text += '\n';
+  for (const BounceRatios& ratios : report.ratios) {
+    for (const RatioBin& bin : ratios.bins) {
+      text += ratios.map + field(bin.ao) + ',' + std::to_string(bin.count) + field(bin.by_conservation) +
+              field(bin.published);
+      for (std::size_t b = 0; b < most; ++b) text += b < bin.ratios.size() ? field(bin.ratios[b]) : ",";
+      text += '\n';
+    }
+  }
+  return text;
 }
 
 std::string report_csv(const FitReport& report) {

@@ -7,6 +7,8 @@
 
 #include "files/file_record.h"
 #include "fit/bootstrap.h"
+#include "fit/bounce_fits.h"
+#include "fit/bounce_ratios.h"
 #include "fit/cross_validation.h"
 #include "fit/cubic_by_albedo.h"
 #include "fit/floors.h"
@@ -29,6 +31,8 @@ struct FitReport {
   std::vector<FittedFamily> families;
   std::vector<AlbedoCubic> cubics_three_bounces;
   std::vector<AlbedoCubic> cubics_all_bounces;
+  std::vector<BounceFit> bounce_fits;
+  std::vector<BounceRatios> ratios;  ///< per map
   CrossValidation trial;
   std::vector<Floor> floors;
   std::uint64_t seed = 1;
@@ -49,7 +53,11 @@ std::string report_csv(const FitReport& report);
 /// conventions (bins of equal weight, tabulated at i/100), to each map alone, and to three bounces.
 std::vector<std::string> explain_distances(const FitReport& report);
 
-/// What is said on the terminal: how far from the published, and why; the errors.
+/// ratios.csv: map,alpha,texels,tau,tau_published, then the ratios E2/E1 … of each bin; empty where there is
+/// none.
+std::string ratios_csv(const FitReport& report);
+
+/// What is said on the terminal: how far from the published, and why; whether τ is one number; the errors.
 void print_report(const FitReport& report);
 
 }  // namespace heightlight

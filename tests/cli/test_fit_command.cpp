@@ -13,8 +13,10 @@ namespace {
 
 using Catch::Matchers::Contains;
 
-const char* const kResults[] = {"models.json", "models.csv", "models.glsl", "models.hlsl", "fitted.svg",
-                                "fitted.png",  "errors.svg", "errors.png",  "cubic.svg",   "cubic.png"};
+const char* const kResults[] = {"models.json", "models.csv", "ratios.csv", "models.glsl",    "models.hlsl",
+                                "fitted.svg",  "fitted.png", "errors.svg", "errors.png",     "bounces.svg",
+                                "bounces.png", "ratios.svg", "ratios.png", "saturation.svg", "saturation.png",
+                                "cubic.svg",   "cubic.png"};
 
 nlohmann::json find_form(const nlohmann::json& forms, const std::string& name) {
   for (const nlohmann::json& form : forms) {
@@ -46,7 +48,7 @@ TEST_CASE("fit judges forms texel by texel, on materials that it left out", "[cl
     REQUIRE(run.exit_code == 0);
     CHECK(run.error.empty());
     CHECK_THAT(run.out, Contains("notes_direct") && Contains("published") && Contains("why:") &&
-                            Contains("floor of A"));
+                            Contains("floor of A") && Contains("is tau one number?"));
   }
   for (const char* name : kResults) {
     INFO(name);

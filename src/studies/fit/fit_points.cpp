@@ -24,12 +24,10 @@ struct PointSums {
   std::vector<double> measured;
 };
 
-double measured_in_bin(const CurveBin& bin, FitTarget target, double albedo) {
-  switch (target) {
-    case FitTarget::direct:
-      return bin.bounces[0].mean;
-    case FitTarget::first_bounce:
-      return bin.bounces[1].mean;
+double measured_in_bin(const CurveBin& bin, const FormFamily& family, double albedo) {
+  switch (family.target) {
+    case FitTarget::one_bounce:
+      return bin.bounces[family.bounce].mean;
     case FitTarget::three_bounces:
       return bin_partial_total(bin, albedo, 3);
     case FitTarget::total:
@@ -51,7 +49,7 @@ void add_bins(const FormFamily& family, const JudgedMap& map, std::size_t index,
     point.inputs = bin_inputs(map, bin, family.kind);
     point.albedos = target_albedos(family.target);
     for (const double albedo : point.albedos) {
-      point.measured.push_back(measured_in_bin(bin, family.target, albedo));
+      point.measured.push_back(measured_in_bin(bin, family, albedo));
     }
     points.push_back(std::move(point));
   }

@@ -50,6 +50,11 @@ FormFamily over_alpha(FormFamily family) {
   return family;
 }
 
+FormFamily of_bounce(std::size_t bounce, FormFamily family) {
+  family.bounce = bounce;
+  return family;
+}
+
 FormFamily with_extra(FormFamily family, ExtraInput extra) {
   family.extra = extra;
   return family;
@@ -68,14 +73,15 @@ std::vector<FormFamily> notes_families() {
   };
   NotesConstants bounded;
   bounded.direct_power = 1;
-  return {over_alpha(make_family<NotesConstants>(
-              kNotesDirectText, FitTarget::direct,
-              {{"gain", &NotesConstants::direct_gain}, {"power", &NotesConstants::direct_power}}, direct)),
-          over_alpha(make_family<NotesConstants>(kBoundedDirectText, FitTarget::direct,
-                                                 {{"gain", &NotesConstants::direct_gain}}, direct, bounded)),
-          over_alpha(make_family<NotesConstants>(
-              kNotesFirstBounceText, FitTarget::first_bounce,
-              {{"A", &NotesConstants::first_gain}, {"B", &NotesConstants::first_decay}}, first))};
+  return {
+      over_alpha(make_family<NotesConstants>(
+          kNotesDirectText, FitTarget::one_bounce,
+          {{"gain", &NotesConstants::direct_gain}, {"power", &NotesConstants::direct_power}}, direct)),
+      over_alpha(make_family<NotesConstants>(kBoundedDirectText, FitTarget::one_bounce,
+                                             {{"gain", &NotesConstants::direct_gain}}, direct, bounded)),
+      of_bounce(1, over_alpha(make_family<NotesConstants>(
+                       kNotesFirstBounceText, FitTarget::one_bounce,
+                       {{"A", &NotesConstants::first_gain}, {"B", &NotesConstants::first_decay}}, first)))};
 }
 
 /// As a polynomial, not held in [0, 1].

@@ -11,8 +11,7 @@ namespace heightlight {
 
 /// What a family's form is to reproduce.
 enum class FitTarget {
-  direct,         ///< E₀/π over α or A
-  first_bounce,   ///< E₁/π at ρ = 1
+  one_bounce,     ///< E_b/π at ρ = 1, over α or A
   total,          ///< of all bounces, ρ = 0.1 … 0.9
   three_bounces,  ///< E₀ + ρE₁ + ρ²E₂ + ρ³E₃, at the albedos of file 000, appendix B
 };
@@ -28,6 +27,7 @@ struct FormFamily {
   bool both_kinds = false;  ///< it wants the other kind of AO, too
   bool is_clamped = true;   ///< judged within [0, 1]; fits see it as it is
   FitTarget target = FitTarget::total;
+  std::size_t bounce = 0;  ///< b of FitTarget::one_bounce
   std::vector<std::string> parameters = {};
   std::vector<double> published = {};
   /// What is known of the parameters beforehand: one that is off by its published value counts as this RMS

@@ -11,6 +11,7 @@
 #include "heightlight/forms.h"
 #include "plot/curve_tables.h"
 #include "plot/gnuplot_run.h"
+#include "plot/tau_panels.h"
 
 namespace heightlight {
 namespace {
@@ -32,7 +33,7 @@ set ylabel 'E_b / π (bin mean)'
 set logscale y
 set yrange [1e-5:40]
 set format y '10^{%T}'
-set colorbox horizontal user origin 0.19,0.929 size 0.16,0.008
+set colorbox horizontal user origin 0.19,0.946 size 0.16,0.006
 set cblabel 'bounce b' offset 0,1.1
 set cbtics offset 0,0.5
 plot for [b=0:K] $bounces using 1:(column(7+b)) with lines lw 1.6 lc palette cb b notitle
@@ -145,8 +146,9 @@ void send_data(Gnuplot& script, const CurvePlotInput& input) {
   send_table(script, "sky", bounce_table(input.sky_view_factor));
   send_table(script, "notes", notes_table());
   for (std::size_t i = 0; i < input.reliefs.size(); ++i) {
-    send_table(script, "relief" + std::to_string(i), bounce_table(input.reliefs[i].curves));
+    send_table(script, "relief" + std::to_string(i), bounce_table(well_filled(input.reliefs[i].curves)));
   }
+  send_tau_tables(script, curves);
   script << "$surface << e\n";
   script.send2d(surface);
   // A surface takes two scans of two points.
@@ -163,16 +165,25 @@ const char* relief_colour(std::size_t i, std::size_t count) {
   return kPlasma[count > 1 ? i * (kPlasma.size() - 1) / (count - 1) : 0];
 }
 
+/// E₁ of all reliefs, and at least the notes' F₁.
+double tallest_relief(const CurvePlotInput& input) {
+  double tallest = 0.45;
+  for (const ReliefCurves& relief : input.reliefs)
+    tallest = std::max(tallest, 1.05 * tallest_bounce(well_filled(relief.curves)));
+  return tallest;
+}
+
 void send_relief_panel(Gnuplot& script, const CurvePlotInput& input) {
-  script << kReliefPanel << "plot ";
   const std::size_t count = input.reliefs.size();
+  script << kReliefPanel << "set yrange [0:" << tallest_relief(input) << "]\n";
+  if (count > 0)
+    script << "set title '{/:Bold First bounce by height amplitude} (copies of " << input.reliefs[0].width
+           << " × " << input.reliefs[0].height << ")'\n";
+  script << "plot ";
   for (std::size_t i = 0; i < count; ++i) {
     if (last_bounce(input.reliefs[i].curves) < 1) continue;
     script << "$relief" << i << " using 1:8 with lines lw 1.6 lc rgb '" << relief_colour(i, count)
            << "' title sprintf('%g', " << input.reliefs[i].relief_share << "), ";
-  }
-  if (last_bounce(input.ambient_occlusion) >= 1) {
-    script << "$bounces using 1:8 with lines lw 2.2 dt 3 lc rgb 'black' title 'this map', ";
   }
   script << "$notes using 1:3 with lines lw 1.4 dt 4 lc rgb '#777777' title 'F_1(α), notes eq. 11'\n";
 }
@@ -183,19 +194,21 @@ GnuplotResult draw_curves(const std::string& terminal, const CurvePlotInput& inp
   return run_gnuplot([&](Gnuplot& script) {
     script << "set terminal " << terminal << '\n';
     send_data(script, input);
-    script << kShareAxisStyle << kCurveStyle << "set multiplot layout 3,2 title "
+    script << kShareAxisStyle << kCurveStyle << "set multiplot layout 4,2 title "
            << gnuplot_quoted(input.title) << " font ':Bold,19' noenhanced\n";
     for (const char* panel : {kBouncePanel, kSurfacePanel, kSumPanel, kDirectPanel, kCountPanel})
       script << panel;
     send_relief_panel(script, input);
+    send_ratio_panel(script, input.ambient_occlusion);
+    send_saturation_panel(script, input.ambient_occlusion);
     script << "unset multiplot\n";
   });
 }
 
 void plot_curves(const std::filesystem::path& svg, const std::filesystem::path& png,
                  const CurvePlotInput& input) {
-  write_bytes(svg, draw_curves("svg size 1400,1700 font 'sans-serif,17' background 'white'", input).output);
-  write_bytes(png, draw_curves("pngcairo size 1400,1700 font 'sans,13' background 'white'", input).output);
+  write_bytes(svg, draw_curves("svg size 1400,2250 font 'sans-serif,17' background 'white'", input).output);
+  write_bytes(png, draw_curves("pngcairo size 1400,2250 font 'sans,13' background 'white'", input).output);
 }
 
 }  // namespace heightlight

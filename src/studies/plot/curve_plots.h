@@ -18,14 +18,14 @@ struct CurvePlotInput {
   std::string title = {};             ///< any characters; empty for none
 };
 
-/// Draws the figure of the notes (file 004) in six panels, as SVG and as PNG: the bounces over α, their
-/// surface over bounce and α, their sum, E₀ beside its simplifications, texels per bin, and the first bounce
-/// by relief. Bins without texels leave gaps. Throws Error naming gnuplot when it is not installed or fails,
-/// or the file that could not be written.
+/// Draws the figure of the notes (file 004) in eight panels, as SVG and as PNG: the bounces over α, their
+/// surface over bounce and α, their sum, E₀ beside its simplifications, texels per bin, the first bounce by
+/// relief, and whether τ is one number, over bounces and over albedos. Bins without texels leave gaps. Throws
+/// Error naming gnuplot when it is not installed or fails, or the file that could not be written.
 void plot_curves(const std::filesystem::path& svg, const std::filesystem::path& png,
                  const CurvePlotInput& input);
 
-/// The same figure on any gnuplot terminal of 14 : 17, with what gnuplot had to say about it.
+/// The same figure on any gnuplot terminal of 14 : 22.5, with what gnuplot had to say about it.
 GnuplotResult draw_curves(const std::string& terminal, const CurvePlotInput& input);
 
 }  // namespace heightlight

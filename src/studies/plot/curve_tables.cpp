@@ -37,6 +37,15 @@ int last_bounce(const BounceCurves& curves) {
   return curves.filled.empty() ? 0 : static_cast<int>(curves.filled.front().bounces.size()) - 1;
 }
 
+BounceCurves well_filled(const BounceCurves& curves) {
+  std::size_t texels = 0;
+  for (const CurveBin& bin : curves.filled) texels += bin.count;
+  const std::size_t fewest = std::max<std::size_t>(30, texels / 400);
+  BounceCurves filled = curves;
+  std::erase_if(filled.filled, [fewest](const CurveBin& bin) { return bin.count < fewest; });
+  return filled;
+}
+
 PlotTable bounce_table(const BounceCurves& curves) {
   const auto bounces = static_cast<std::size_t>(last_bounce(curves) + 1);
   return make_table(curves, 6 + bounces, [](const CurveBin& bin) {

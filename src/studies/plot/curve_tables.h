@@ -14,6 +14,9 @@ namespace heightlight {
 /// The last bounce K of curves with at least E₀; 0 where no bin is filled.
 int last_bounce(const BounceCurves& curves);
 
+/// The bins that hold at least 30 texels, and one in 400: what fewer say is noise.
+BounceCurves well_filled(const BounceCurves& curves);
+
 /// ao_mean, bin centre, bin width, count, then p05 and p95 of E₀/π, then the means of E₀/π … E_K/π.
 PlotTable bounce_table(const BounceCurves& curves);
 

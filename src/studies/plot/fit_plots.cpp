@@ -1,14 +1,18 @@
 #include "plot/fit_plots.h"
 
+#include <fmt/core.h>
 #include <gnuplot-iostream.h>
 
 #include <algorithm>
+#include <array>
 #include <iomanip>
 #include <limits>
 #include <sstream>
 
 #include "files/output_file.h"
+#include "plot/colours.h"
 #include "plot/gnuplot_run.h"
+#include "plot/panel_grid.h"
 
 namespace heightlight {
 namespace {
@@ -16,27 +20,18 @@ namespace {
 using gnuplotio::Gnuplot;
 
 // Axes are fixed, so that gnuplot never has to find a range among no points.
-constexpr const char* kFitStyle = R"(
-set palette defined (0 '#440154', 1 '#46327e', 2 '#365c8d', 3 '#277f8e', 4 '#1fa187', 5 '#4ac16d', 6 '#a0da39')
-set cbrange [0:1]
-unset colorbox
-set key samplen 2.2 spacing 1.15
-)";
 
-constexpr int kShownAlbedos = 11;
+constexpr std::size_t kShownAlbedos = 11;
+constexpr const char* kMeasuredStyle = "lw 1.2 lc rgb '#D5200E'";
 
-/// Rows and columns for a number of panels, no wider than three.
-std::string layout(std::size_t panels) {
-  const std::size_t columns = std::min<std::size_t>(3, std::max<std::size_t>(1, panels));
-  return std::to_string((panels + columns - 1) / columns) + "," + std::to_string(columns);
+std::string albedo_style(std::size_t k, std::size_t count) {
+  return fmt::format("lw 2.6 lc rgb '{}'",
+                     ordered_colour(static_cast<double>(k) / static_cast<double>(count - 1)));
 }
 
-std::string picture_size(std::size_t panels, bool is_svg) {
-  const std::size_t columns = std::min<std::size_t>(3, std::max<std::size_t>(1, panels));
-  const std::size_t rows = (panels + columns - 1) / columns;
-  return std::string(is_svg ? "svg" : "pngcairo") + " size " + std::to_string(480 * columns) + "," +
-         std::to_string(430 * rows) + " font '" + (is_svg ? "sans-serif,15" : "sans,12") +
-         "' background 'white'";
+PanelGrid make_grid(std::size_t panels) {
+  return {
+      .panels = panels, .columns = std::min<std::size_t>(3, std::max<std::size_t>(1, panels)), .width = 430};
 }
 
 /// AO, then the RMS error per judged albedo; NaN in bins without texels.
@@ -67,16 +62,29 @@ const char* axis_name(AoKind kind) {
   return kind == AoKind::ambient_occlusion ? "ambient occlusion α" : "sky view factor A";
 }
 
-void send_coefficient_panel(Gnuplot& script, const char* name, int column, double three_slope,
-                            double three_offset, double all_slope, double all_offset, double published_slope,
-                            double published_offset) {
+constexpr const char* kThreeColour = "#0072B2";
+constexpr const char* kAllColour = "#D55E00";
+constexpr const char* kPublishedCubicStyle = "lw 2 dt 2 lc rgb 'black'";
+
+/// A straight line over the albedo.
+struct CoefficientLine {
+  double slope;
+  double offset;
+};
+
+std::string line_plot(const CoefficientLine& line, const std::string& style) {
+  return fmt::format(", {:.8g}*x+({:.8g}) {} notitle", line.slope, line.offset, style);
+}
+
+void send_coefficient_panel(Gnuplot& script, const char* name, int column,
+                            const std::array<CoefficientLine, 3>& lines) {
   script << "set title '{/:Bold " << name << "(ρ)}'\n"
-         << "plot $three using 1:" << column
-         << " with points pt 7 ps 1 lc rgb '#0072B2' title 'three bounces', " << three_slope << "*x+("
-         << three_offset << ") lw 1.6 lc rgb '#0072B2' notitle, $all using 1:" << column
-         << " with points pt 5 ps 1 lc rgb '#D55E00' title 'all bounces', " << all_slope << "*x+("
-         << all_offset << ") lw 1.6 lc rgb '#D55E00' notitle, " << published_slope << "*x+("
-         << published_offset << ") lw 2 dt 2 lc rgb 'black' title 'published, eq. 33'\n";
+         << fmt::format("plot $three using 1:{} with points pt 7 ps 1.1 lc rgb '{}' notitle", column,
+                        kThreeColour)
+         << line_plot(lines[0], fmt::format("lw 1.6 lc rgb '{}'", kThreeColour))
+         << fmt::format(", $all using 1:{} with points pt 5 ps 1.1 lc rgb '{}' notitle", column, kAllColour)
+         << line_plot(lines[1], fmt::format("lw 1.6 lc rgb '{}'", kAllColour))
+         << line_plot(lines[2], kPublishedCubicStyle) << '\n';
 }
 
 PlotTable coefficient_table(const std::vector<AlbedoCubic>& cubics) {
@@ -87,81 +95,119 @@ PlotTable coefficient_table(const std::vector<AlbedoCubic>& cubics) {
 
 }  // namespace
 
-GnuplotResult draw_fitted(const std::string& terminal, const std::vector<FittedPanel>& panels) {
+GnuplotResult draw_fitted(bool is_svg, const std::vector<FittedPanel>& panels) {
+  const PanelGrid grid = make_grid(panels.size());
   return run_gnuplot([&](Gnuplot& script) {
-    script << "set terminal " << terminal << '\n' << kShareAxisStyle << kFitStyle << "set yrange [0:1.05]\n";
+    script << "set terminal " << terminal_of(grid, is_svg) << '\n'
+           << kShareAxisStyle << "set yrange [0:1.05]\n";
     for (std::size_t i = 0; i < panels.size(); ++i) {
       send_table(script, "measured" + std::to_string(i), panels[i].measured);
       send_table(script, "fitted" + std::to_string(i), panels[i].fitted);
     }
-    script << "set multiplot layout " << layout(panels.size()) << '\n';
+    begin_grid(script, grid, "Forms (thick) over measured bin means (red), ρ = 0 to 1");
     for (std::size_t i = 0; i < panels.size(); ++i) {
-      script << "set title " << gnuplot_quoted(panels[i].title) << " noenhanced\nset xlabel '"
-             << axis_name(panels[i].kind)
-             << "'\nset ylabel 'E / π, ρ = 0 … 1'\nset key bottom right\nplot for [k=2:" << kShownAlbedos + 1
-             << "] $fitted" << i
-             << " using 1:(column(k)) with lines lw 3 lc palette cb (k-2)/10.0 notitle, for [k=2:"
-             << kShownAlbedos + 1 << "] $measured" << i
-             << " using 1:(column(k)) with lines lw 1 lc rgb '#D5200E' notitle, -1 with lines lw 1 lc rgb "
-                "'#D5200E' title 'measured', -1 with lines lw 3 lc rgb '#277f8e' title 'form'\n";
+      place_panel(script, grid, i);
+      script << "set title " << gnuplot_quoted(panels[i].title) << " font ':Bold' noenhanced\nset xlabel '"
+             << axis_name(panels[i].kind) << "'\nset ylabel 'E / π, all bounces'\nplot ";
+      for (std::size_t k = 0; k < kShownAlbedos; ++k)
+        script << "$fitted" << i << " using 1:" << k + 2 << " with lines " << albedo_style(k, kShownAlbedos)
+               << " notitle, ";
+      script << "for [k=2:" << kShownAlbedos + 1 << "] $measured" << i << " using 1:(column(k)) with lines "
+             << kMeasuredStyle << " notitle\n";
     }
+    std::string key = std::string("keyentry with lines ") + kMeasuredStyle + " title 'measured (bin means)'";
+    for (std::size_t k = kShownAlbedos; k-- > 0;)
+      key += fmt::format(", keyentry with lines {} title 'ρ = {:.1f}'", albedo_style(k, kShownAlbedos),
+                         static_cast<double>(k) / 10);
+    draw_key(script, grid, key);
     script << "unset multiplot\n";
   });
 }
 
-GnuplotResult draw_errors(const std::string& terminal, const std::vector<JudgedForm>& forms) {
+GnuplotResult draw_errors(bool is_svg, const std::vector<JudgedForm>& forms) {
+  PanelGrid grid = make_grid(forms.size());
+  grid.title = 58;                                             // two lines
+  constexpr std::array<std::size_t, 5> kShown{0, 2, 4, 6, 8};  // of the judged albedos
   return run_gnuplot([&](Gnuplot& script) {
-    script << "set terminal " << terminal << '\n'
-           << kShareAxisStyle << kFitStyle << "set yrange [0:0.3]\nset cbrange [0:8]\n";
+    script << "set terminal " << terminal_of(grid, is_svg) << '\n'
+           << kShareAxisStyle << "set logscale y\nset yrange [2e-4:1]\nset format y '10^{%T}'\n";
     for (std::size_t i = 0; i < forms.size(); ++i) {
       send_table(script, "errors" + std::to_string(i), error_table(forms[i]));
     }
-    script << "set multiplot layout " << layout(forms.size()) << '\n';
+    begin_grid(script, grid,
+               "RMS error of each form over its AO; over all texels at ρ = .1 .3 .5 .7 .9 in the titles");
     for (std::size_t i = 0; i < forms.size(); ++i) {
+      place_panel(script, grid, i);
       script << "set title " << error_title(forms[i]) << " noenhanced\nset xlabel '"
-             << axis_name(forms[i].kind)
-             << "'\nset ylabel 'RMS error of E / π'\nset key top right\nplot for [k=0:8:2] $errors" << i
-             << " using 1:(column(k+2)) with lines lw 2.2 lc palette cb k title sprintf('ρ = 0.%d', k+1)\n";
+             << axis_name(forms[i].kind) << "'\nset ylabel 'RMS error of E / π'\nplot ";
+      for (std::size_t k = 0; k < kShown.size(); ++k)
+        script << (k > 0 ? ", " : "") << "$errors" << i << " using 1:" << kShown[k] + 2 << " with lines "
+               << albedo_style(k, kShown.size()) << " notitle";
+      script << '\n';
     }
+    std::string key;
+    for (std::size_t k = 0; k < kShown.size(); ++k)
+      key += fmt::format("{}keyentry with lines {} title 'ρ = {:.1f}'", k > 0 ? ", " : "",
+                         albedo_style(k, kShown.size()), judged_albedos()[kShown[k]]);
+    draw_key(script, grid, key);
     script << "unset multiplot\n";
   });
 }
 
-GnuplotResult draw_cubics(const std::string& terminal, const CubicPanel& cubics) {
+GnuplotResult draw_cubics(bool is_svg, const CubicPanel& cubics) {
+  const PanelGrid grid = make_grid(3);
   return run_gnuplot([&](Gnuplot& script) {
-    script << "set terminal " << terminal << '\n' << kShareAxisStyle << kFitStyle << std::setprecision(8);
+    script << "set terminal " << terminal_of(grid, is_svg) << '\n' << kShareAxisStyle << std::setprecision(8);
     send_table(script, "three", coefficient_table(cubics.three_bounces));
     send_table(script, "all", coefficient_table(cubics.all_bounces));
-    script << "set multiplot layout 1,3\nset xlabel 'albedo ρ'\nset yrange [*:*]\nset key top left\n";
+    begin_grid(script, grid, "Coefficients of the cubic, by albedo");
+    // Points at the ends of the range would lie half hidden on the border.
+    script << "set xlabel 'albedo ρ'\nunset ylabel\nset yrange [*:*]\nset offsets 0, 0, graph 0.05, graph "
+              "0.05\n";
     const CubicConstants& three = cubics.three_bounces_line;
     const CubicConstants& all = cubics.all_bounces_line;
     const CubicConstants published;
-    send_coefficient_panel(script, "a", 2, three.a_slope, three.a_offset, all.a_slope, all.a_offset,
-                           published.a_slope, published.a_offset);
-    send_coefficient_panel(script, "b", 3, three.b_slope, three.b_offset, all.b_slope, all.b_offset,
-                           published.b_slope, published.b_offset);
-    send_coefficient_panel(script, "c", 4, three.c_slope, three.c_offset, all.c_slope, all.c_offset,
-                           published.c_slope, published.c_offset);
+    place_panel(script, grid, 0);
+    send_coefficient_panel(script, "a", 2,
+                           {{{three.a_slope, three.a_offset},
+                             {all.a_slope, all.a_offset},
+                             {published.a_slope, published.a_offset}}});
+    place_panel(script, grid, 1);
+    send_coefficient_panel(script, "b", 3,
+                           {{{three.b_slope, three.b_offset},
+                             {all.b_slope, all.b_offset},
+                             {published.b_slope, published.b_offset}}});
+    place_panel(script, grid, 2);
+    send_coefficient_panel(script, "c", 4,
+                           {{{three.c_slope, three.c_offset},
+                             {all.c_slope, all.c_offset},
+                             {published.c_slope, published.c_offset}}});
+    draw_key(script, grid,
+             fmt::format(
+                 "keyentry with points pt 7 lc rgb '{}' title 'fitted, three bounces', keyentry with points "
+                 "pt 5 lc rgb '{}' title 'fitted, all bounces', keyentry with lines {} title 'published, "
+                 "eq. 33'",
+                 kThreeColour, kAllColour, kPublishedCubicStyle));
     script << "unset multiplot\n";
   });
 }
 
 void plot_fitted(const std::filesystem::path& svg, const std::filesystem::path& png,
                  const std::vector<FittedPanel>& panels) {
-  write_bytes(svg, draw_fitted(picture_size(panels.size(), true), panels).output);
-  write_bytes(png, draw_fitted(picture_size(panels.size(), false), panels).output);
+  write_bytes(svg, draw_fitted(true, panels).output);
+  write_bytes(png, draw_fitted(false, panels).output);
 }
 
 void plot_errors(const std::filesystem::path& svg, const std::filesystem::path& png,
                  const std::vector<JudgedForm>& forms) {
-  write_bytes(svg, draw_errors(picture_size(forms.size(), true), forms).output);
-  write_bytes(png, draw_errors(picture_size(forms.size(), false), forms).output);
+  write_bytes(svg, draw_errors(true, forms).output);
+  write_bytes(png, draw_errors(false, forms).output);
 }
 
 void plot_cubics(const std::filesystem::path& svg, const std::filesystem::path& png,
                  const CubicPanel& cubics) {
-  write_bytes(svg, draw_cubics(picture_size(3, true), cubics).output);
-  write_bytes(png, draw_cubics(picture_size(3, false), cubics).output);
+  write_bytes(svg, draw_cubics(true, cubics).output);
+  write_bytes(png, draw_cubics(false, cubics).output);
 }
 
 }  // namespace heightlight

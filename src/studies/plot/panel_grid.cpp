@@ -11,7 +11,6 @@ namespace {
 // What axes and titles take of a panel, in pixels.
 constexpr int kLeft = 75;
 constexpr int kRight = 12;
-constexpr int kTop = 36;
 constexpr int kBottom = 62;
 
 int total_width(const PanelGrid& grid) { return grid.width * static_cast<int>(grid.columns) + grid.key; }
@@ -43,7 +42,7 @@ void place_panel(gnuplotio::Gnuplot& script, const PanelGrid& grid, std::size_t 
   const int column = static_cast<int>(panel % grid.columns);
   const int bottom = total_height(grid) - grid.head - (row + 1) * grid.height;
   set_margins(script, grid, column * grid.width + kLeft, (column + 1) * grid.width - kRight, bottom + kBottom,
-              bottom + grid.height - kTop);
+              bottom + grid.height - grid.title);
   script << "unset key\n";
 }
 

@@ -15,8 +15,9 @@ struct PanelGrid {
   std::size_t columns = 1;
   int width = 460;  ///< of a panel, its labels included
   int height = 410;
-  int key = 230;  ///< width of the strip
-  int head = 40;  ///< height of the title
+  int title = 36;  ///< height of its title
+  int key = 230;   ///< width of the strip
+  int head = 40;   ///< height of the title
 
   std::size_t rows() const { return (panels + columns - 1) / columns; }
 };

@@ -89,7 +89,10 @@ std::vector<ReliefCurves> study_reliefs(const Heightmap& map, const ReliefStudy&
     Heightmap scaled = small;
     const double scale = tall > 0 ? share * extent / tall : 1;
     for (float& height : scaled.height.values) height = static_cast<float>(height * scale);
-    results.push_back({.relief_share = share, .curves = simulate_curves(std::move(scaled), study, watch)});
+    results.push_back({.relief_share = share,
+                       .curves = simulate_curves(std::move(scaled), study, watch),
+                       .width = small.height.width,
+                       .height = small.height.height});
     progress.add(1);
   }
   return results;

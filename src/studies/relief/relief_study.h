@@ -13,6 +13,8 @@ namespace heightlight {
 struct ReliefCurves {
   double relief_share = 0;  ///< peak-to-valley height over the map's width
   BounceCurves curves;      ///< over α
+  int width = 0;            ///< texels of the copy that they are of
+  int height = 0;
 };
 
 /// What is studied.
