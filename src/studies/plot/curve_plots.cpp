@@ -181,7 +181,7 @@ void send_relief_panel(Gnuplot& script, const CurvePlotInput& input) {
            << " × " << input.reliefs[0].height << ")'\n";
   script << "plot ";
   for (std::size_t i = 0; i < count; ++i) {
-    if (last_bounce(input.reliefs[i].curves) < 1) continue;
+    if (last_bounce(well_filled(input.reliefs[i].curves)) < 1) continue;
     script << "$relief" << i << " using 1:8 with lines lw 1.6 lc rgb '" << relief_colour(i, count)
            << "' title sprintf('%g', " << input.reliefs[i].relief_share << "), ";
   }
