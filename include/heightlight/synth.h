@@ -15,13 +15,14 @@ struct SynthShape {
   bool tiles;  ///< the map repeats without a seam
 };
 
-/// flat, plane, bowl, trench, groove, cliff, steps, sines, fbm, cobbles, brick; in this order.
+/// flat, plane, bowl, trench, groove, cliff, steps, sines, shapes, fbm, cobbles, brick, concrete; in this
+/// order.
 const std::vector<SynthShape>& synth_shapes();
 
 /// Heights in [0, 1], `size` × `size`, texel centres at ((column + ½)/size, (row + ½)/size); the same for the
 /// same arguments on every machine and for any number of threads. The exact formula of each analytic shape
-/// stands above its function. `seed` matters to fbm, cobbles and brick. Throws UsageError for an unknown name
-/// (it lists the known ones) or a size outside [1, 32768].
+/// stands above its function. `seed` matters to fbm, cobbles, brick and concrete. Throws UsageError for an
+/// unknown name (it lists the known ones) or a size outside [1, 32768].
 Image<float> synthesize(const std::string& shape, int size, std::uint64_t seed);
 
 }  // namespace heightlight

@@ -115,7 +115,8 @@ std::optional<std::vector<double>> parse_albedo_list(const std::string& text) {
   const bool in_range =
       std::all_of(values->begin(), values->end(), [](double v) { return v >= 0 && v <= 1; });
   if (!in_range || values->size() > kMost)
-    throw UsageError("albedo", text, "must be one to eight numbers, each in [0, 1], or the name of an image");
+    throw UsageError("albedo", text,
+                     "must be one to eight numbers, each in [0, 1], #RRGGBB, or the name of an image");
   return values;
 }
 

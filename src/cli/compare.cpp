@@ -42,11 +42,12 @@ std::vector<ComparedAlbedo> compared_albedos(const CompareOptions& options, cons
   const std::optional<std::vector<double>> list = parse_albedo_list(options.albedo);
   const Albedo albedo = list ? Albedo{.constant = *list, .varying = {}}
                              : read_albedo(options.albedo, surface.map, options.run.memory).albedo;
-  for (const double constant : albedo.constant) {
-    albedos.push_back({.label = fmt::format("{:g}", constant),
-                       .reflectance = TexelVector(surface.map.height.size(), constant)});
-  }
   constexpr std::array<const char*, 3> kChannels{"R", "G", "B"};
+  const bool is_colour = !list && albedo.constant.size() == kChannels.size();  // #RRGGBB
+  for (std::size_t c = 0; c < albedo.constant.size(); ++c) {
+    albedos.push_back({.label = is_colour ? kChannels.at(c) : fmt::format("{:g}", albedo.constant[c]),
+                       .reflectance = TexelVector(surface.map.height.size(), albedo.constant[c])});
+  }
   for (std::size_t c = 0; c < albedo.varying.size(); ++c) {
     albedos.push_back({.label = albedo.varying.size() == 1 ? "map" : kChannels.at(c),
                        .reflectance = albedo.varying[c],
@@ -82,8 +83,9 @@ std::uint64_t memory_for_methods(const CompareOptions& options, const Surface& s
 }
 
 std::vector<std::string> result_names() {
-  std::vector<std::string> names{"compare.csv", "compare.json", "report.md",  "forms.svg",       "forms.png",
-                                 "pareto.svg",  "pareto.png",   "errors.png", "total_errors.png"};
+  std::vector<std::string> names{"compare.csv",      "compare.json", "report.md",  "forms.svg",
+                                 "forms.png",        "pareto.svg",   "pareto.png", "errors.png",
+                                 "total_errors.png", "showtime.png"};
   const std::vector<std::string> shown = shown_methods();
   for (std::size_t i = 0; i < shown.size(); ++i) names.push_back(error_picture_name(i + 1, shown[i]));
   return names;
@@ -157,9 +159,10 @@ void add_compare_command(CLI::App& app) {
   add_map_options(*command, options->map);
   command->add_option("-o,--output", options->folder, "folder for the results")->type_name("DIR")->required();
   command
-      ->add_option("--albedo", options->albedo,
-                   "of the totals: one to eight numbers, or an image of the map's size (0.2,0.5,0.8)")
-      ->type_name("R,R…|FILE");
+      ->add_option(
+          "--albedo", options->albedo,
+          "of the totals: one to eight numbers, a colour, or an image of the map's size (0.2,0.5,0.8)")
+      ->type_name("R,R…|#RRGGBB|FILE");
   command->add_option("--azimuths", options->azimuths,
                       "of the reference, an even number (128); its error stands in the report");
   add_user_form_options(*command, options->forms);
@@ -167,8 +170,8 @@ void add_compare_command(CLI::App& app) {
   command->footer(
       "Writes report.md, which begins with the answer: what each closed form errs by on exact AO and on "
       "GTAO's;\n"
-      "forms, pareto (.svg, .png), errors.png, total_errors.png, error_NN_METHOD.png; compare.csv, "
-      "compare.json.\n"
+      "forms, pareto (.svg, .png), showtime.png (how it looks), errors.png, total_errors.png,\n"
+      "error_NN_METHOD.png; compare.csv, compare.json.\n"
       "Examples:\n"
       "  heightlight compare brick.png -o brick\n"
       "  heightlight compare dem.tif -o dem --texel 50 --boundary open --albedo 0.3\n"

@@ -8,6 +8,7 @@
 #include "plot/error_pictures.h"
 #include "plot/form_plot.h"
 #include "plot/pareto_plot.h"
+#include "plot/rendered_sheet.h"
 
 namespace heightlight {
 
@@ -43,6 +44,13 @@ void draw_comparison(StagedFolder& folder, const ReportInput& input, Plots& plot
                      {.title = input.map_name + ": totals by closed forms on exact AO and on methods'",
                       .quantity = "E/π at albedo " + albedos.back().label + ", form − reference",
                       .columns = static_cast<int>(answering_forms(input.scene.forms).size())});
+  });
+  // No AO, the forms, the truth.
+  const std::size_t columns = answering_forms(input.scene.forms).size() + 2;
+  plots.draw(folder, {"showtime.png"}, [&](const auto& paths) {
+    plot_rendered(
+        paths[0], comparison.rendered,
+        {.title = input.map_name + " under an even sky: albedo × E/π, all bounces", .columns = columns});
   });
 }
 

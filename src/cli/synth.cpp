@@ -70,7 +70,8 @@ void add_synth_command(CLI::App& app) {
       ->required()
       ->type_name("FILE");
   command->add_option("--size", options->size, "texels on each side (512)");
-  command->add_option("--seed", options->seed, "seed of fbm, cobbles and brick (1)")->check(whole_number());
+  command->add_option("--seed", options->seed, "seed of fbm, cobbles, brick and concrete (1)")
+      ->check(whole_number());
   command->footer(
       describe_shapes() +
       "Heights run from 0 to 1. Of a .png, other commands stretch them to the relief; of an .exr they\n"

@@ -61,10 +61,13 @@ Steps measure_steps(const Image<float>& image, const LineStep& step) {
 // decision.
 TEST_CASE("Every shape keeps every bit", "[synth]") {
   const std::map<std::string, std::uint64_t> golden{
-      {"flat", 0xbe7134315f056325ULL},    {"plane", 0xcf57323e835c34a5ULL},  {"bowl", 0x41d76e446a916e9dULL},
-      {"trench", 0xfed4632e9ec62b25ULL},  {"groove", 0xc67c93829e8c1ca5ULL}, {"cliff", 0xe8a3c8e0aee89325ULL},
-      {"steps", 0xfc3e8d7e99c10425ULL},   {"sines", 0x694d28cf4734e82bULL},  {"fbm", 0xfa115d138202b6c6ULL},
-      {"cobbles", 0x10ddee006b968e5fULL}, {"brick", 0xc966579c5b6dfff2ULL},
+      {"flat", 0xbe7134315f056325ULL},     {"plane", 0xcf57323e835c34a5ULL},
+      {"bowl", 0x41d76e446a916e9dULL},     {"trench", 0xfed4632e9ec62b25ULL},
+      {"groove", 0xc67c93829e8c1ca5ULL},   {"cliff", 0xe8a3c8e0aee89325ULL},
+      {"steps", 0xfc3e8d7e99c10425ULL},    {"sines", 0x694d28cf4734e82bULL},
+      {"fbm", 0xfa115d138202b6c6ULL},      {"cobbles", 0x10ddee006b968e5fULL},
+      {"brick", 0xc966579c5b6dfff2ULL},    {"shapes", 0x71deb8cea44d791dULL},
+      {"concrete", 0x1c7cf7f42273d733ULL},
   };
   REQUIRE(golden.size() == synth_shapes().size());
   for (const SynthShape& shape : synth_shapes()) {
@@ -85,7 +88,7 @@ TEST_CASE("A shape does not depend on the number of threads", "[synth]") {
 }
 
 TEST_CASE("The seed, all 64 bits of it, changes the natural shapes and no other", "[synth]") {
-  const std::set<std::string> natural{"fbm", "cobbles", "brick"};
+  const std::set<std::string> natural{"fbm", "cobbles", "brick", "concrete"};
   for (const SynthShape& shape : synth_shapes()) {
     CAPTURE(shape.name);
     const Image<float> first = synthesize(shape.name, 48, 1);
@@ -104,7 +107,8 @@ TEST_CASE("Heights lie in [0, 1] at every size, and the natural shapes reach bot
       const auto [lowest, highest] = std::minmax_element(image.values.begin(), image.values.end());
       CHECK(*lowest >= 0);
       CHECK(*highest <= 1);
-      const bool natural = shape.name == "fbm" || shape.name == "cobbles" || shape.name == "brick";
+      const bool natural =
+          shape.name == "fbm" || shape.name == "cobbles" || shape.name == "brick" || shape.name == "concrete";
       if (natural && size > 1) {
         CHECK(*lowest == 0);
         CHECK(*highest == 1);

@@ -46,11 +46,17 @@ const std::vector<Recipe>& recipes() {
       {{"cliff", "one upright wall in the middle", false}, analytic<synth::cliff>},
       {{"steps", "staircase of eight treads", false}, analytic<synth::steps>},
       {{"sines", "four crossed sine waves, smooth", true}, analytic<synth::sines>},
+      {{"shapes", "nine solids on a floor: box, hemisphere, cylinder, cone, well …; round at relief 0.45",
+        true},
+       analytic<synth::solids>},
       {{"fbm", "hills: fractal noise from a quarter of the map down to the texel", true},
        natural<synth::fbm>},
       {{"cobbles", "worn cobblestones set in rough sand", true}, natural<synth::cobbles>},
       {{"brick", "weathered brick wall in running bond, with chips, pits, cracks and raked joints", true},
        natural<synth::brick>},
+      {{"concrete", "rough concrete off four boards, with bubbles and worn places; meant for relief 0.05",
+        true},
+       natural<synth::concrete>},
   };
   return kRecipes;
 }

@@ -17,9 +17,11 @@ Image<float> groove(int size);
 Image<float> cliff(int size);
 Image<float> steps(int size);
 Image<float> sines(int size);
+Image<float> solids(int size);
 
 Image<float> fbm(int size, std::uint64_t seed);
 Image<float> cobbles(int size, std::uint64_t seed);
 Image<float> brick(int size, std::uint64_t seed);
+Image<float> concrete(int size, std::uint64_t seed);
 
 }  // namespace heightlight::synth

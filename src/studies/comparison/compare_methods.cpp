@@ -139,6 +139,8 @@ void add_role(const ComparedScene& scene, const ComparisonReference& reference, 
   if (!is_drawn) return;
   for (FormPanel& panel : make_form_panels(contender.role, estimate, scene, reference))
     comparison.panels.push_back(std::move(panel));
+  for (RenderedForm& one : render_forms(contender.role, estimate, scene, reference))
+    comparison.rendered.push_back(std::move(one));
 }
 
 /// The reference's own maps, as if a method had found them.

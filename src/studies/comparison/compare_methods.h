@@ -7,6 +7,7 @@
 #include "comparison/error_statistics.h"
 #include "comparison/form_panels.h"
 #include "comparison/reference.h"
+#include "comparison/rendered_forms.h"
 
 namespace heightlight {
 
@@ -65,6 +66,7 @@ struct Comparison {
   std::vector<ErrorMap> total_errors;  ///< at the last albedo: role by role, form by form; thinned
                                        ///< out, 0 × 0 where the role's AO does not tell what a form wants
   std::vector<FormPanel> panels;       ///< of the exact AO, then of GTAO as games run it
+  std::vector<RenderedForm> rendered;  ///< likewise
   std::vector<StageCost> stages;
 };
 

@@ -48,14 +48,13 @@ Map shrink(const Map& map) {
   return small;
 }
 
-/// IEC 61966-2-1.
+}  // namespace
+
 std::uint8_t encode_srgb(float linear) {
   const float x = std::clamp(linear, 0.0F, 1.0F);
   const float encoded = x <= 0.0031308F ? 12.92F * x : 1.055F * std::pow(x, 1 / 2.4F) - 0.055F;
   return static_cast<std::uint8_t>(std::lround(255 * encoded));
 }
-
-}  // namespace
 
 Image<Rgb8> colour_picture(const std::vector<Map>& channels) {
   assert(channels.size() == 1 || channels.size() == 3);

@@ -13,6 +13,9 @@ namespace heightlight {
 /// What a texel without an answer looks like: a magenta that no grey and no shade comes near.
 constexpr Rgb8 kMissingColour{136, 64, 120};
 
+/// Of a linear value, cut to [0, 1] (IEC 61966-2-1).
+std::uint8_t encode_srgb(float linear);
+
 /// 0 black, 1 white; values outside are clipped, NaN is kMissingColour.
 Image<Rgb8> grey_picture(const Map& map);
 
