@@ -247,6 +247,18 @@ Real fuzzy_openness(Real distance, Real radius) {
   return distance >= radius ? Real{1} : std::sqrt(distance / radius);
 }
 
+/// How fast the exponential μ rises: σ R, the number of mean free paths up to the radius.
+inline constexpr double kOpennessRate = 4;
+
+/// The exponential μ of file 002, section 2, 1 − exp(−σ d), which its authors leave since it never ends: here
+/// σ is kOpennessRate/R, and it is scaled to be 1 at the radius R > 0 and beyond.
+template <class Real>
+Real exponential_openness(Real distance, Real radius) {
+  if (distance >= radius) return Real{1};
+  constexpr Real kRate = static_cast<Real>(kOpennessRate);
+  return std::expm1(-kRate * distance / radius) / std::expm1(-kRate);
+}
+
 /// What a texel sees in one direction, for the ambient transfer.
 template <class Real>
 struct Occluder {

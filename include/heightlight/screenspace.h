@@ -86,7 +86,7 @@ enum class DepthSampling {
 enum class DirectionNoise {
   none,     ///< all texels look along the same ones
   spatial,  ///< sixteen turns in squares of 4 × 4 texels, and a bilateral gather of 4 × 4 results
-  temporal  ///< six frames, each turned by a sixth of what the spatial noise leaves open, averaged
+  temporal  ///< six frames, each turned by a sixth of what the spatial noise leaves open, put together
 };
 
 /// GTAO, file 000 algorithms 1 and 2. One slice serves both of its sides.
@@ -101,11 +101,18 @@ struct GtaoOptions {
   double thickness = 0;         ///< β of eq. 13, ≥ 0; 0 leaves the heuristic out
   bool divide_by_open = false;  ///< divide by what the same slices give an open hemisphere; not in the paper
   bool bent_normal = false;     ///< algorithm 2
+  /// Of the temporal noise: the share that each new frame has in an exponential accumulation buffer that has
+  /// run for ever, in (0, 1]; 0: the plain mean of the six turns.
+  double accumulation = 0;
 };
 
 /// Beside its A, which is the paper's, α from the same horizons: what the forms of α are fed. Throws
 /// UsageError for options outside their range.
 ScreenSpaceView gtao(const DepthBuffer& depth, const GtaoOptions& options);
+
+/// GTAO of a quarter of the texels, spread back to all by a bilateral filter (file 000, section 4.3). Bent
+/// normals are left out. Throws as gtao does.
+ScreenSpaceView gtao_half_resolution(const DepthBuffer& depth, const GtaoOptions& options);
 
 /// GTAO, and along the same horizons one bounce gathered: a sample that raises the horizon from m to m' is
 /// seen through the form factor between them, and sends what a first pass found as its A. Fills `seen`, with
@@ -138,13 +145,20 @@ struct SurfaceAlbedo {
   const Map* map = nullptr;
 };
 
+/// μ of file 002: how far a surface at distance d counts as open, up to R.
+enum class FuzzyMeasure {
+  step,        ///< 0: all that is nearer than R hides wholly
+  root,        ///< √(d/R)
+  exponential  ///< exponential_openness (forms.h)
+};
+
 /// Obscurance and ambient transfer by containment tests (file 002 eqs. 5, 7 and 9). Directions and distances
 /// are n points of a Lloyd-relaxed Poisson disc distribution, the same for all texels but for sixteen turns
 /// about the normal.
 struct AmbientTransferOptions {
-  int samples = 16;         ///< n
-  int tests = 1;            ///< m, containment tests on the way to each sample
-  bool square_root = true;  ///< μ(d) = √(d/R); false: the step at R
+  int samples = 16;  ///< n
+  int tests = 1;     ///< m, containment tests on the way to each sample
+  FuzzyMeasure measure = FuzzyMeasure::root;
   DirectionNoise noise = DirectionNoise::spatial;
   double reach = 1;  ///< R > 0, finite
 };
@@ -161,11 +175,15 @@ struct SsdoOptions {
   int samples = 16;  ///< N
   DirectionNoise noise = DirectionNoise::spatial;
   double reach = 1;  ///< r_max > 0, finite
+  /// Section 6: "a smooth-step function to fade out shadows from blockers close to the border of the
+  /// hemisphere", here over the outer quarter of the reach.
+  bool smooth_end = false;
 };
 
 /// Direct irradiance under a uniform sky and under half of one, and per albedo the direct one with one
 /// bounce. Distances between sender and receiver are taken to be at least a texel: the paper clamps to "1",
-/// whose unit it does not say. Throws UsageError for options outside their range.
+/// whose unit it does not say. With a smooth end there is no half of a sky. Throws UsageError for options
+/// outside their range.
 ScreenSpaceView ssdo(const DepthBuffer& depth, const std::vector<SurfaceAlbedo>& albedos,
                      const SsdoOptions& options);
 

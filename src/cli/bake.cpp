@@ -45,9 +45,10 @@ BakeOutcome bake_file(const BakeCommand& command, const BakeInput& input, const 
   ReadAlbedo albedo = read_albedo(command.albedo, loaded.map, command.run.memory);
   options.albedo = std::move(albedo.albedo);
   if (!command.max_distance.empty()) {
-    const Falloff falloff = command.falloff == "linear" ? Falloff::linear
-                            : command.falloff == "sqrt" ? Falloff::root
-                                                        : Falloff::none;
+    const Falloff falloff = command.falloff == "linear"        ? Falloff::linear
+                            : command.falloff == "sqrt"        ? Falloff::root
+                            : command.falloff == "exponential" ? Falloff::exponential
+                                                               : Falloff::none;
     const double width = loaded.map.spacing.x * loaded.map.height.width;
     options.reach = Reach{.distance = parse_distance(command.max_distance, width), .falloff = falloff};
   }
@@ -169,8 +170,8 @@ void add_map_content_options(CLI::App& app, BakeCommand& command) {
   app.add_option(
          "--falloff", command.falloff,
          "what is nearer than --max-distance occludes: wholly (none, default), or by 1 - d/D (linear), "
-         "1 - sqrt(d/D) (sqrt)")
-      ->check(CLI::IsMember({"none", "linear", "sqrt"}));
+         "1 - sqrt(d/D) (sqrt), or by exp(-4 d/D), shifted to end at D (exponential)")
+      ->check(CLI::IsMember({"none", "linear", "sqrt", "exponential"}));
   app.add_flag("--bent-length", options.bent_length, "keep the length of bent normals in alpha");
   app.add_option("--horizon-azimuths", options.horizon_azimuths, "azimuths of the horizon map (4)");
 }

@@ -16,6 +16,7 @@
 #include "cli/user_form_options.h"
 #include "cli/warnings.h"
 #include "comparison/comparison_csv.h"
+#include "comparison/far_field.h"
 #include "comparison/report.h"
 #include "files/output_file.h"
 #include "files/printable.h"
@@ -61,7 +62,7 @@ std::vector<ComparedAlbedo> compared_albedos(const CompareOptions& options, cons
 std::uint64_t bytes_held(const Surface& surface, std::size_t albedos, std::size_t shown) {
   constexpr std::uint64_t kMap = sizeof(Map::value_type);
   constexpr std::uint64_t kSurface = kMap + sizeof(Vector3);
-  constexpr std::uint64_t kReference = 4 * kMap + sizeof(Vector3);
+  constexpr std::uint64_t kReference = 5 * kMap + sizeof(Vector3);
   constexpr std::uint64_t kEstimate = 4 * kMap + sizeof(Vector3);
   constexpr std::uint64_t kTwoTone = 3 * kMap + 3 * kMap;  // three channels of differences, and their sizes
   const std::uint64_t per_albedo = 2 * kMap + kMap + sizeof(TexelVector::value_type);
@@ -104,8 +105,13 @@ void compare_on(const CompareOptions& options, const Surface& surface, LoadedHei
                                                                   .memory = memory,
                                                                   .seed = options.run.seed,
                                                                   .watch = terminal});
-  ComparedScene scene{
-      .surface = surface, .depth = depth, .albedos = albedos, .memory = memory, .seed = options.run.seed};
+  const Map far_field = bake_far_field(surface, memory);
+  ComparedScene scene{.surface = surface,
+                      .depth = depth,
+                      .albedos = albedos,
+                      .far_field = &far_field,
+                      .memory = memory,
+                      .seed = options.run.seed};
   std::vector<FormOnMap> own_forms;
   for (const UserForm& form : own) {
     own_forms.push_back(fit_on_map(form, scene, reference));

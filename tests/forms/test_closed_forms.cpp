@@ -198,6 +198,9 @@ TEST_CASE("the ambient transfer sums per hit, and is eq. 12 where nothing is fuz
   CHECK(ambient_transfer(Sky(0), white) == 1);
   CHECK(fuzzy_openness(0.25, 1.0) == 0.5);
   CHECK(fuzzy_openness(3.0, 2.0) == 1);
+  CHECK(exponential_openness(0.0, 2.0) == 0);
+  CHECK(exponential_openness(2.0, 2.0) == 1);
+  CHECK(exponential_openness(0.5, 2.0) == Approx((1 - std::exp(-1.0)) / (1 - std::exp(-4.0))));
 }
 
 TEST_CASE("bounds of a total hold for any bounces, and for G", "[forms]") {

@@ -111,8 +111,11 @@ TEST_CASE("a plane is open to ambient transfer and to SSDO: exactly 1", "[screen
       make_map(40, 32, Boundary::open, [&](int row, int column) { return slope * (column - row) / 40; }));
   const DepthBuffer depth = make_depth_buffer(surface);
   const std::vector<SurfaceAlbedo> albedos{{.constant = 0.5}};
-  const ScreenSpaceView transfer =
-      ambient_transfer(depth, albedos, {.samples = 16, .tests = 2, .square_root = GENERATE(false, true)});
+  const ScreenSpaceView transfer = ambient_transfer(
+      depth, albedos,
+      {.samples = 16,
+       .tests = 2,
+       .measure = GENERATE(FuzzyMeasure::step, FuzzyMeasure::root, FuzzyMeasure::exponential)});
   const ScreenSpaceView directional = ssdo(depth, albedos, {.samples = 16});
   for (std::size_t i = 0; i < depth.row_height.size(); ++i) {
     REQUIRE(transfer.sky_view_factor.values[i] == Approx(1).margin(1e-6));  // identity, sixteen roundings
@@ -128,7 +131,7 @@ TEST_CASE("with one albedo the ambient transfer is equation 12 of its obscurance
   const DepthBuffer depth = make_depth_buffer(surface);
   const Map grey(64, 64, 0.7F);
   const ScreenSpaceView view = ambient_transfer(depth, {{.constant = 0.7}, {.constant = 0, .map = &grey}},
-                                                {.samples = 16, .tests = 2, .square_root = true});
+                                                {.samples = 16, .tests = 2, .measure = FuzzyMeasure::root});
   double deepest = 1;
   for (std::size_t i = 0; i < grey.size(); ++i) {
     const double open = double{view.sky_view_factor.values[i]};
@@ -149,7 +152,7 @@ TEST_CASE("many tests on the way find what one misses: a thin wall", "[screenspa
     const Map open = ambient_transfer(depth, {},
                                       {.samples = 64,
                                        .tests = tests,
-                                       .square_root = false,
+                                       .measure = FuzzyMeasure::step,
                                        .noise = DirectionNoise::none,
                                        .reach = 0.3})
                          .sky_view_factor;
@@ -204,7 +207,7 @@ TEST_CASE("point methods refuse options outside their range", "[screenspace]") {
   CHECK_THROWS_AS(ambient_transfer(depth, {}, {.samples = 0}), UsageError);
   CHECK_THROWS_AS(ambient_transfer(depth, {}, {.samples = 4, .tests = 0}), UsageError);
   const AmbientTransferOptions no_reach{
-      .samples = 4, .tests = 1, .square_root = true, .noise = DirectionNoise::none, .reach = 0};
+      .samples = 4, .tests = 1, .measure = FuzzyMeasure::root, .noise = DirectionNoise::none, .reach = 0};
   CHECK_THROWS_AS(ambient_transfer(depth, {}, no_reach), UsageError);
   CHECK_THROWS_AS(ssdo(depth, {}, {.samples = 0}), UsageError);
   CHECK_THROWS_AS(ssdo(depth, {}, {.samples = 4, .noise = DirectionNoise::none, .reach = -1}), UsageError);

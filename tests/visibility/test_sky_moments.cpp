@@ -90,7 +90,7 @@ TEST_CASE("reach: the sky walk's lanes and its scalar twin agree on every instru
   const std::string kind = GENERATE("smooth", "rough", "tall", "holes", "oblong", "texel");
   const Boundary boundary = GENERATE(Boundary::tile, Boundary::open);
   const double distance = GENERATE(0.005, 0.06, 0.4, 2.0);
-  const Falloff falloff = GENERATE(Falloff::none, Falloff::linear, Falloff::root);
+  const Falloff falloff = GENERATE(Falloff::none, Falloff::linear, Falloff::root, Falloff::exponential);
   const bool keep_slope = falloff == Falloff::none && GENERATE(false, true);
   const WalkOptions options{.azimuths = 6, .fineness = 8, .peak_share = 0.3F};
   const Surface surface = test_surface(kind, boundary);
@@ -222,7 +222,7 @@ TEST_CASE("moments converge to those of exact profiles with the walk's fineness"
 TEST_CASE("a limited reach converges to that of exact profiles", "[visibility][reach][slow]") {
   const std::string shape = GENERATE("brick", "fbm");
   const Boundary boundary = GENERATE(Boundary::tile, Boundary::open);
-  const Falloff falloff = GENERATE(Falloff::none, Falloff::linear, Falloff::root);
+  const Falloff falloff = GENERATE(Falloff::none, Falloff::linear, Falloff::root, Falloff::exponential);
   const double distance = GENERATE(0.03, 0.3);  // 3 and 29 texels
   const Surface surface = build_surface(make_synth_map(shape.c_str(), 96, boundary, 0.15));
   const std::optional<Reach> reach = Reach{.distance = distance, .falloff = falloff};

@@ -5,13 +5,15 @@
 
 #include "base/parallel.h"
 #include "heightlight/error.h"
+#include "heightlight/forms.h"
 #include "screenspace/bilateral_gather.h"
 #include "screenspace/point_kernel.h"
 #include "screenspace/relaxed_points.h"
 
 // Of file 002 section 4.1: a point (ξ_x, ξ_y, ξ_z) of the unit cube becomes the direction
 //     ω = T cos(2π ξ_x) √ξ_y + B sin(2π ξ_x) √ξ_y + N √(1 − ξ_y),
-// distributed like the cosine, and the distance r = μ⁻¹(ξ_z): R ξ_z² for the square root, R for the step.
+// distributed like the cosine, and the distance r = μ⁻¹(ξ_z): R ξ_z² for the square root, R for the step, and
+// −R/4 ln(1 − ξ_z (1 − e⁻⁴)) for the exponential.
 // With I = 1 where the sample is open, O = Σ I/n and
 //     W = Σ I / (n − Σ (1 − I) a).
 // Where the albedo a is the same everywhere, W = O/(1 − a (1 − O)).
@@ -19,10 +21,23 @@
 namespace heightlight {
 namespace {
 
+/// μ⁻¹, over R.
+double distance_share(FuzzyMeasure measure, double xi) {
+  switch (measure) {
+    case FuzzyMeasure::root:
+      return xi * xi;
+    case FuzzyMeasure::exponential:
+      return -std::log1p(xi * std::expm1(-kOpennessRate)) / kOpennessRate;
+    case FuzzyMeasure::step:
+      break;
+  }
+  return 1;
+}
+
 std::vector<TangentPoint> tangent_points(const AmbientTransferOptions& options) {
   std::vector<TangentPoint> points;
   for (const Eigen::Vector3d& xi : relaxed_points(options.samples)) {
-    const double reach = options.reach * (options.square_root ? xi.z() * xi.z() : 1);
+    const double reach = options.reach * distance_share(options.measure, xi.z());
     const double azimuth = 2 * std::numbers::pi * xi.x();
     const double level = reach * std::sqrt(xi.y());
     points.push_back(

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "heightlight/screenspace.h"
@@ -22,6 +23,32 @@ constexpr double kGatherTolerance = 0.3;
 
 /// Cosine between normals from which on neighbours count.
 constexpr float kGatherCosine = 0.9F;
+
+/// A texel near a receiver, and where it lies from there: world units, y up.
+struct NeighbourPlace {
+  int row = 0;
+  int column = 0;
+  float x = 0;
+  float y = 0;
+};
+
+/// How near to the receiver's tangent plane a neighbour must lie, and how like its normal must be.
+struct SurfaceTolerance {
+  float distance = 0;  ///< world units
+  float cosine = kGatherCosine;
+};
+
+/// Whether a neighbour belongs to the receiver's surface; it does not where its sample is missing.
+inline bool on_same_surface(const DepthBuffer& depth, int row, int column, const NeighbourPlace& place,
+                            const SurfaceTolerance& tolerance) {
+  const float plane = depth.row_slope_x(row, column) * place.x + depth.row_slope_y(row, column) * place.y;
+  const float above = depth.row_height(place.row, place.column) - depth.row_height(row, column) - plane;
+  const float cosine = depth.row_normal_z(row, column) * depth.row_normal_z(place.row, place.column) *
+                       (depth.row_slope_x(row, column) * depth.row_slope_x(place.row, place.column) +
+                        depth.row_slope_y(row, column) * depth.row_slope_y(place.row, place.column) + 1);
+  return std::fabs(above) * depth.row_normal_z(row, column) <= tolerance.distance &&
+         cosine >= tolerance.cosine;
+}
 
 /// What a row's receivers gather from: one or more results per texel, all of the depth buffer's size.
 struct GatherPass {

@@ -26,13 +26,9 @@ void for_neighbours(const GatherPass& pass, int row, int column, Add&& add) {
       if (i < 0 || j < 0) continue;
       const float x = static_cast<float>(right * depth.spacing.x);
       const float y = static_cast<float>(-down * depth.spacing.y);  // rows run down, y up
-      const float plane = depth.row_slope_x(row, column) * x + depth.row_slope_y(row, column) * y;
-      const float above = depth.row_height(i, j) - depth.row_height(row, column) - plane;
-      const float cosine = depth.row_normal_z(row, column) * depth.row_normal_z(i, j) *
-                           (depth.row_slope_x(row, column) * depth.row_slope_x(i, j) +
-                            depth.row_slope_y(row, column) * depth.row_slope_y(i, j) + 1);
-      const bool is_near = std::fabs(above) * depth.row_normal_z(row, column) <= pass.tolerance;
-      if (is_near && cosine >= pass.cosine) add(i, j);
+      const NeighbourPlace place{.row = i, .column = j, .x = x, .y = y};
+      if (on_same_surface(depth, row, column, place, {.distance = pass.tolerance, .cosine = pass.cosine}))
+        add(i, j);
     }
   }
 }

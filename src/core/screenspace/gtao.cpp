@@ -20,6 +20,8 @@ void check_options(const GtaoOptions& options) {
   check_slice_options("gtao", slice_options(options));
   if (!(options.falloff >= 0 && options.falloff <= 1))
     throw UsageError("gtao: the falloff must be in [0, 1]");
+  if (!(options.accumulation >= 0 && options.accumulation <= 1))
+    throw UsageError("gtao: the accumulation must be in [0, 1]");
   if (!(options.thickness >= 0)) throw UsageError("gtao: the thickness must not be negative");
 }
 
@@ -35,6 +37,27 @@ GtaoPass make_pass(const DepthBuffer& depth, const SliceTables& tables, const Gt
   return pass;
 }
 
+/// What a frame counts for. In an accumulation buffer the newest counts a, and each before it 1 − a times the
+/// one after it; those six turns before are of the same directions, and count with it.
+float frame_weight(const GtaoOptions& options, int frame, int frames) {
+  if (options.accumulation <= 0) return 1 / static_cast<float>(frames);
+  const double kept = 1 - options.accumulation;
+  const double age = frames - 1 - frame;
+  return static_cast<float>(options.accumulation * std::pow(kept, age) / (1 - std::pow(kept, frames)));
+}
+
+GtaoSums make_line(int columns, const GtaoOptions& options) {
+  const auto width = static_cast<std::size_t>(columns);
+  GtaoSums line;
+  line.sky.resize(width);
+  line.solid.resize(width);
+  if (options.divide_by_open) line.open.resize(width);
+  if (options.bent_normal) {
+    for (std::vector<float>& part : line.bent) part.resize(width);
+  }
+  return line;
+}
+
 /// The sums of all frames, over what they sum to in the open: A, α, then what else was asked for.
 std::vector<Map> trace(const DepthBuffer& depth, const GtaoOptions& options) {
   const std::size_t results = 2 + (options.divide_by_open ? 1 : 0) + (options.bent_normal ? 3 : 0);
@@ -44,26 +67,20 @@ std::vector<Map> trace(const DepthBuffer& depth, const GtaoOptions& options) {
   for (int frame = 0; frame < frames; ++frame) {
     tables.push_back(make_slice_tables(depth, slice_options(options), frame));
   }
-  const float scale = 0.5F / static_cast<float>(options.slices * frames);
   parallel_for(depth.height, [&](std::int64_t i) {
     const int row = static_cast<int>(i);
-    const auto width = static_cast<std::size_t>(depth.width);
-    GtaoSums line;
-    line.sky.resize(width);
-    line.solid.resize(width);
-    if (options.divide_by_open) line.open.resize(width);
-    if (options.bent_normal) {
-      for (std::vector<float>& part : line.bent) part.resize(width);
-    }
-    for (const SliceTables& frame : tables) gtao_row(make_pass(depth, frame, options), row, line);
-    std::size_t result = 0;
-    for (const std::vector<float>* from :
-         {&line.sky, &line.solid, &line.open, &line.bent[0], &line.bent[1], &line.bent[2]}) {
-      if (from->empty()) continue;
-      for (int column = 0; column < depth.width; ++column) {
-        sums[result](row, column) = scale * (*from)[static_cast<std::size_t>(column)];
+    for (int frame = 0; frame < frames; ++frame) {
+      GtaoSums line = make_line(depth.width, options);
+      gtao_row(make_pass(depth, tables[static_cast<std::size_t>(frame)], options), row, line);
+      const float scale = 0.5F / static_cast<float>(options.slices) * frame_weight(options, frame, frames);
+      std::size_t result = 0;
+      for (const std::vector<float>* from :
+           {&line.sky, &line.solid, &line.open, &line.bent[0], &line.bent[1], &line.bent[2]}) {
+        if (from->empty()) continue;
+        for (int column = 0; column < depth.width; ++column)
+          sums[result](row, column) += scale * (*from)[static_cast<std::size_t>(column)];
+        ++result;
       }
-      ++result;
     }
   });
   return sums;

@@ -40,6 +40,7 @@ std::string in_words(const GtaoOptions& options) {
   if (options.thickness > 0) words += "; thickness " + in_digits(static_cast<double>(options.thickness));
   if (options.divide_by_open) words += "; divided by open";
   if (options.bent_normal) words += "; bent normal";
+  if (options.accumulation > 0) words += "; accumulating " + in_digits(options.accumulation);
   return words;
 }
 
@@ -100,7 +101,28 @@ void add_gtao_variants(std::vector<ScreenSpaceMethod>& methods) {
   add([](GtaoOptions& o) { o.falloff = 0.5; });
   add([](GtaoOptions& o) { o.divide_by_open = true; });
   add([](GtaoOptions& o) { o.bent_normal = true; });
+  add([](GtaoOptions& o) {
+    o.noise = DirectionNoise::temporal;
+    o.accumulation = 0.1;
+  });
   for (const double thickness : {0.01, 0.05, 0.2}) add([=](GtaoOptions& o) { o.thickness = thickness; });
+}
+
+/// File 000, section 4.3: one direction of twelve steps at half resolution, in 4 × 4 squares and six turns;
+/// and the usual preset likewise.
+void add_gtao_half_resolution(std::vector<ScreenSpaceMethod>& methods) {
+  const auto add = [&](GtaoOptions options) {
+    methods.push_back({.name = "gtao",
+                       .parameters = in_words(options) + "; half resolution",
+                       .run = [options](const DepthBuffer& depth, const Albedos&) {
+                         return gtao_half_resolution(depth, in_world_units(options, depth));
+                       }});
+  };
+  GtaoOptions paper = gtao_preset(1, 6, kUsualReach, DirectionNoise::temporal);
+  paper.accumulation = 0.1;
+  add(paper);
+  add(gtao_preset(1, 6, kUsualReach, DirectionNoise::spatial));
+  add(gtao_preset(3, 3, kUsualReach, DirectionNoise::spatial));
 }
 
 GtaoOptions without_noise(int slices, int steps) {
@@ -166,12 +188,17 @@ void add_hbao(std::vector<ScreenSpaceMethod>& methods) {
   add(options, true);
 }
 
+std::string measure_in_words(FuzzyMeasure measure) {
+  if (measure == FuzzyMeasure::root) return "; root";
+  return measure == FuzzyMeasure::exponential ? "; exponential" : "; step";
+}
+
 void add_ambient_transfer(std::vector<ScreenSpaceMethod>& methods) {
   const auto add = [&](const AmbientTransferOptions& options, bool shown) {
     relaxed_points(options.samples);  // which a renderer has in its code
     std::string words = in_digits(static_cast<double>(options.samples)) + " samples" +
                         "; m = " + in_digits(static_cast<double>(options.tests)) +
-                        (options.square_root ? "; root" : "; step") + "; reach " +
+                        measure_in_words(options.measure) + "; reach " +
                         in_digits(static_cast<double>(options.reach));
     if (options.noise == DirectionNoise::spatial) words += "; 16 turns";
     methods.push_back({.name = "ambient transfer",
@@ -182,16 +209,17 @@ void add_ambient_transfer(std::vector<ScreenSpaceMethod>& methods) {
                          return ambient_transfer(depth, albedos, in_world_units(options, depth));
                        }});
   };
-  for (const bool square_root : {false, true}) {
+  for (const FuzzyMeasure measure : {FuzzyMeasure::step, FuzzyMeasure::root, FuzzyMeasure::exponential}) {
     for (const int tests : {1, 2}) {
       for (const double reach : {0.25, 0.5, 1.0, 2.0}) {
-        add({16, tests, square_root, DirectionNoise::spatial, reach}, reach == 1 && tests == 2);
+        const bool is_shown = reach == 1 && tests == 2 && measure != FuzzyMeasure::exponential;
+        add({16, tests, measure, DirectionNoise::spatial, reach}, is_shown);
       }
     }
   }
-  add({16, 1, false, DirectionNoise::none, 1}, false);
-  add({64, 2, false, DirectionNoise::spatial, 1}, false);
-  add({256, 32, false, DirectionNoise::none, 4}, false);
+  add({16, 1, FuzzyMeasure::step, DirectionNoise::none, 1}, false);
+  add({64, 2, FuzzyMeasure::step, DirectionNoise::spatial, 1}, false);
+  add({256, 32, FuzzyMeasure::step, DirectionNoise::none, 4}, false);
 }
 
 void add_ssdo(std::vector<ScreenSpaceMethod>& methods) {
@@ -200,6 +228,7 @@ void add_ssdo(std::vector<ScreenSpaceMethod>& methods) {
     std::string words = in_digits(static_cast<double>(options.samples)) + " samples" + "; reach " +
                         in_digits(static_cast<double>(options.reach));
     if (options.noise == DirectionNoise::spatial) words += "; 16 turns";
+    if (options.smooth_end) words += "; smooth end";
     methods.push_back({.name = "ssdo",
                        .parameters = words,
                        .shown = shown,
@@ -211,6 +240,9 @@ void add_ssdo(std::vector<ScreenSpaceMethod>& methods) {
   for (const double reach : {0.5, 1.0, 2.0, 4.0}) add({16, DirectionNoise::spatial, reach}, reach == 2);
   add({16, DirectionNoise::none, 2}, false);
   add({64, DirectionNoise::spatial, 2}, false);
+  add({8, DirectionNoise::spatial, 2}, false);
+  add({.samples = 8, .noise = DirectionNoise::spatial, .reach = 2, .smooth_end = true}, false);
+  add({.samples = 64, .noise = DirectionNoise::spatial, .reach = 2, .smooth_end = true}, false);
 }
 
 }  // namespace
@@ -220,6 +252,7 @@ const std::vector<ScreenSpaceMethod>& screen_space_methods() {
     std::vector<ScreenSpaceMethod> methods;
     add_gtao_presets(methods);
     add_gtao_variants(methods);
+    add_gtao_half_resolution(methods);
     add_gtao_sweeps(methods);
     add_gtao_bounces(methods);
     add_hbao(methods);

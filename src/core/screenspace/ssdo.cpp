@@ -39,6 +39,25 @@ std::vector<TangentPoint> tangent_points(const SsdoOptions& options) {
   return points;
 }
 
+/// How far a blocker at that distance has faded, in [0, 1].
+double faded_share(const SsdoOptions& options, double distance) {
+  constexpr double kBegin = 0.75;
+  if (!options.smooth_end) return 0;
+  const double t = std::clamp((distance / options.reach - kBegin) / (1 - kBegin), 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+/// The points, with what they lose where they are hidden for their weights; and what they send all the same.
+double take_faded(const SsdoOptions& options, std::vector<TangentPoint>& points) {
+  double always = 0;
+  for (TangentPoint& point : points) {
+    const double faded = faded_share(options, std::hypot(point.x, point.y, point.z));
+    always += faded * double{point.weight};
+    point.weight *= static_cast<float>(1 - faded);
+  }
+  return always;
+}
+
 void check_options(const SsdoOptions& options) {
   if (options.samples < 1 || options.samples > 4096) throw UsageError("ssdo: samples must be from 1 to 4096");
   if (!(options.reach > 0) || std::isinf(options.reach)) {
@@ -109,12 +128,14 @@ Map trace_bounce(const DepthBuffer& depth, const std::vector<TangentPoint>& poin
 ScreenSpaceView ssdo(const DepthBuffer& depth, const std::vector<SurfaceAlbedo>& albedos,
                      const SsdoOptions& options) {
   check_options(options);
-  const std::vector<TangentPoint> points = tangent_points(options);
+  std::vector<TangentPoint> points = tangent_points(options);
+  const double always = take_faded(options, points);
   std::vector<Map> direct = trace_direct(depth, points, options);
+  for (float& open : direct[0].values) open += static_cast<float>(always);
   ScreenSpaceView view;
   view.samples_per_texel = static_cast<double>(options.samples) * frame_count(options.noise);
   view.sky_view_factor = std::move(direct[0]);
-  view.half_sky = std::move(direct[1]);
+  if (!options.smooth_end) view.half_sky = std::move(direct[1]);
   Map white;  // the bounce of a white surface, of which those of constant albedos are shares
   for (const SurfaceAlbedo& albedo : albedos) {
     Map total = view.sky_view_factor;

@@ -6,6 +6,7 @@
 
 #include "base/gauss_legendre.h"
 #include "base/texel_algebra.h"
+#include "heightlight/forms.h"
 #include "visibility/slice_integrals.h"
 
 namespace heightlight {
@@ -78,6 +79,8 @@ double open_share(const Reach& reach, double distance) {
       return share;
     case Falloff::root:
       return std::sqrt(share);
+    case Falloff::exponential:
+      return exponential_openness(share, 1.0);
   }
   return 0;
 }

@@ -3,6 +3,7 @@
 #include <numbers>
 #include <utility>
 
+#include "heightlight/forms.h"
 #include "visibility/sky_walk.h"
 
 namespace heightlight {
@@ -145,6 +146,12 @@ float slope_between(float a, float b) {
   return (a * cosine_a + b * cosine_b) / (cosine_a + cosine_b);
 }
 
+/// μ at that share of the reach, in [0, 1]; of a reach with a falloff.
+float openness(Falloff falloff, float share) {
+  if (falloff == Falloff::root) return std::sqrt(share);
+  return falloff == Falloff::exponential ? exponential_openness(share, 1.0F) : share;
+}
+
 /// Mean of μ over a stretch from `begin` to `end`, seen from slope m to `seen`: that under the angles a
 /// quarter and three quarters between, weighted as they light the receiver.
 float share_of_stretch(const ProfilePoint& begin, const ProfilePoint& end, float c, float n_z, float m,
@@ -163,7 +170,7 @@ float share_of_stretch(const ProfilePoint& begin, const ProfilePoint& end, float
     const float share = std::min(1.0F, way * std::sqrt(squared) / reach.distance);
     const float weight = std::max(0.0F, c + n_z * slope) / squared;
     weights += weight;
-    sum += weight * (reach.falloff == Falloff::root ? std::sqrt(share) : share);
+    sum += weight * openness(reach.falloff, share);
   }
   return sum / weights;
 }

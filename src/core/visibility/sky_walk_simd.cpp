@@ -1,10 +1,12 @@
 // The lanes of the vector hold neighbouring receivers of a row. The arithmetic is sky_walk_scalar.cpp's.
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
 
+#include "heightlight/forms.h"
 #include "visibility/sky_walk.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -13,6 +15,8 @@
 #include <hwy/highway.h>
 
 #include "visibility/walk_lanes-inl.h"
+// After what tells it the instruction set.
+#include <hwy/contrib/math/math-inl.h>
 
 HWY_BEFORE_NAMESPACE();
 namespace heightlight::HWY_NAMESPACE {
@@ -142,6 +146,15 @@ struct Stretch {
   float before, way;
 };
 
+/// openness of sky_walk_scalar.cpp.
+VF openness(Falloff falloff, VF share) {
+  if (falloff == Falloff::root) return hn::Sqrt(share);
+  if (falloff != Falloff::exponential) return share;
+  constexpr auto kRate = static_cast<float>(kOpennessRate);
+  const VF fallen = hn::Exp(kF, hn::Mul(hn::Set(kF, -kRate), share));
+  return hn::Mul(hn::Sub(hn::Set(kF, 1.0F), fallen), hn::Set(kF, -1 / std::expm1(-kRate)));
+}
+
 /// Mean of μ over stretches seen from slope m to `seen`.
 HWY_INLINE VF share_of_stretches(const Stretch& stretch, VF c, VF n_z, VF m, VF seen,
                                  const ReachTable& reach) {
@@ -169,7 +182,7 @@ HWY_INLINE VF share_of_stretches(const Stretch& stretch, VF c, VF n_z, VF m, VF 
     const VF share = hn::Min(one, hn::Div(distance, hn::Set(kF, reach.distance)));
     const VF weight = hn::Div(hn::Max(zero, hn::MulAdd(n_z, slope, c)), squared);
     weights = hn::Add(weights, weight);
-    sum = hn::MulAdd(weight, reach.falloff == Falloff::root ? hn::Sqrt(share) : share, sum);
+    sum = hn::MulAdd(weight, openness(reach.falloff, share), sum);
   }
   return hn::Div(sum, weights);
 }

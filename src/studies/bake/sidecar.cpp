@@ -36,6 +36,8 @@ const char* to_string(Falloff falloff) {
       return "linear";
     case Falloff::root:
       return "sqrt";
+    case Falloff::exponential:
+      return "exponential";
   }
   return "";
 }

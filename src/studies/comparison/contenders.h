@@ -37,6 +37,8 @@ struct ComparedScene {
   const Surface& surface;
   const DepthBuffer& depth;
   const std::vector<ComparedAlbedo>& albedos;
+  const Map* far_field =
+      nullptr;  ///< baked A of what is far (bake_far_field); null: nothing is tried with it
   std::vector<ClosedForm> forms = closed_forms();  ///< that are tried on AO
   std::uint64_t memory = ~0ULL;                    ///< bytes that a method may take
   std::uint64_t seed = 1;

@@ -13,7 +13,7 @@ namespace heightlight {
 namespace {
 
 constexpr std::size_t kBins = 40;
-constexpr std::size_t kFewest = 10;         // texels of a bin that is drawn
+constexpr std::size_t kFewestTexels = 10;   // texels of a bin that is drawn
 constexpr std::size_t kFewestShare = 4000;  // one in so many
 
 /// Which texels lie in which bin of AO.
@@ -28,7 +28,7 @@ Bins sort_into_bins(const Map& occlusion) {
     ++present;
     bins[std::min(kBins - 1, static_cast<std::size_t>(clamp_share(ao) * kBins))].push_back(i);
   }
-  const std::size_t fewest = std::max(kFewest, present / kFewestShare);
+  const std::size_t fewest = std::max(kFewestTexels, present / kFewestShare);
   std::erase_if(bins, [fewest](const std::vector<std::size_t>& bin) { return bin.size() < fewest; });
   return bins;
 }
