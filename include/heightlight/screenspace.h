@@ -176,7 +176,7 @@ struct SsdoOptions {
   DirectionNoise noise = DirectionNoise::spatial;
   double reach = 1;  ///< r_max > 0, finite
   /// Section 6: "a smooth-step function to fade out shadows from blockers close to the border of the
-  /// hemisphere", here over the outer quarter of the reach.
+  /// hemisphere", here over the outer half of the reach.
   bool smooth_end = false;
 };
 
@@ -198,6 +198,7 @@ struct ScreenSpaceMethod {
   bool shown = false;
   std::string role = {};      ///< of the few that stand at the head of reports: kRoleOfGames, say
   bool finds_totals = false;  ///< for each albedo that it is given
+  int directions = 0;         ///< per texel, of those that file 000's figure 5 shows; 0 of others
   std::function<ScreenSpaceView(const DepthBuffer&, const std::vector<SurfaceAlbedo>&)> run = {};
 };
 

@@ -84,9 +84,9 @@ std::uint64_t memory_for_methods(const CompareOptions& options, const Surface& s
 }
 
 std::vector<std::string> result_names() {
-  std::vector<std::string> names{"compare.csv",      "compare.json", "report.md",  "forms.svg",
-                                 "forms.png",        "pareto.svg",   "pareto.png", "errors.png",
-                                 "total_errors.png", "showtime.png"};
+  std::vector<std::string> names{"compare.csv",      "compare.json", "report.md",     "forms.svg",
+                                 "forms.png",        "pareto.svg",   "pareto.png",    "errors.png",
+                                 "total_errors.png", "showtime.png", "directions.png"};
   const std::vector<std::string> shown = shown_methods();
   for (std::size_t i = 0; i < shown.size(); ++i) names.push_back(error_picture_name(i + 1, shown[i]));
   return names;
@@ -176,7 +176,8 @@ void add_compare_command(CLI::App& app) {
   command->footer(
       "Writes report.md, which begins with the answer: what each closed form errs by on exact AO and on "
       "GTAO's;\n"
-      "forms, pareto (.svg, .png), showtime.png (how it looks), errors.png, total_errors.png,\n"
+      "forms, pareto (.svg, .png), showtime.png (how it looks), errors.png, total_errors.png, "
+      "directions.png,\n"
       "error_NN_METHOD.png; compare.csv, compare.json.\n"
       "Examples:\n"
       "  heightlight compare brick.png -o brick\n"

@@ -52,6 +52,13 @@ void draw_comparison(StagedFolder& folder, const ReportInput& input, Plots& plot
         paths[0], comparison.rendered,
         {.title = input.map_name + " under an even sky: albedo × E/π, all bounces", .columns = columns});
   });
+  plots.draw(folder, {"directions.png"}, [&](const auto& paths) {
+    plot_rendered(
+        paths[0], comparison.directions,
+        {.title = input.map_name + ": A by GTAO of one slice, alone, in squares of 4 × 4, and in six turns",
+         .quantity = "A",
+         .columns = comparison.directions.size()});
+  });
 }
 
 }  // namespace heightlight

@@ -34,8 +34,9 @@ TEST_CASE("compare writes its table, report, plots and pictures, and errors that
   REQUIRE(one.exit_code == 0);
   REQUIRE(run_command("compare map.png -o two --albedo 0.3,0.8,0.8 --threads 2 --quiet", folder).exit_code ==
           0);
-  for (const char* name : {"compare.csv", "compare.json", "report.md", "forms.svg", "forms.png", "pareto.svg",
-                           "pareto.png", "errors.png", "total_errors.png", "showtime.png"}) {
+  for (const char* name :
+       {"compare.csv", "compare.json", "report.md", "forms.svg", "forms.png", "pareto.svg", "pareto.png",
+        "errors.png", "total_errors.png", "showtime.png", "directions.png"}) {
     CHECK(std::filesystem::file_size(folder / (std::string("one/") + name)) > 500);
   }
   const auto pictures = std::filesystem::directory_iterator(folder / "one");

@@ -73,6 +73,18 @@ constexpr Preset kPresets[] = {{1, 2}, {2, 2}, {3, 3}, {9, 3}, {1, 6}};
 /// Reach of the variants below: the best of those tried on four maps.
 constexpr double kUsualReach = 1;
 
+/// The last methods, of one slice: all of those reaches in squares of sixteen turns, one without turns, one
+/// of 96.
+void number_directions(std::vector<ScreenSpaceMethod>& methods) {
+  const std::size_t last = methods.size() - 1;
+  methods[last].directions = 96;
+  methods[last - 1].directions = 1;
+  for (std::size_t i = 0; i < last - 1; ++i) {
+    const bool is_same = methods[i].parameters == methods[last - 1].parameters + "; 16 turns";
+    if (is_same) methods[i].directions = 16;
+  }
+}
+
 void add_gtao_presets(std::vector<ScreenSpaceMethod>& methods) {
   for (const Preset& preset : kPresets) {
     for (const double reach : {0.5, 1.0, 2.0, 4.0}) {
@@ -84,6 +96,8 @@ void add_gtao_presets(std::vector<ScreenSpaceMethod>& methods) {
     methods.push_back(gtao_line(gtao_preset(preset.slices, preset.steps, kUsualReach, DirectionNoise::none)));
     methods.push_back(
         gtao_line(gtao_preset(preset.slices, preset.steps, kUsualReach, DirectionNoise::temporal)));
+    const bool is_paper = preset.slices == 1 && preset.steps == 6;
+    if (is_paper) number_directions(methods);
   }
 }
 

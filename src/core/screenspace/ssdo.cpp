@@ -41,7 +41,7 @@ std::vector<TangentPoint> tangent_points(const SsdoOptions& options) {
 
 /// How far a blocker at that distance has faded, in [0, 1].
 double faded_share(const SsdoOptions& options, double distance) {
-  constexpr double kBegin = 0.75;
+  constexpr double kBegin = 0.5;
   if (!options.smooth_end) return 0;
   const double t = std::clamp((distance / options.reach - kBegin) / (1 - kBegin), 0.0, 1.0);
   return t * t * (3 - 2 * t);

@@ -143,6 +143,26 @@ void add_role(const ComparedScene& scene, const ComparisonReference& reference, 
     comparison.rendered.push_back(std::move(one));
 }
 
+/// A, as a grey picture.
+RenderedForm render_sky(const std::string& title, const std::string& label, const Map& sky, double rmse) {
+  const Map thin = thin_out(sky);
+  return {.title = title, .label = label, .rmse = rmse, .reflected = {thin, thin, thin}};
+}
+
+/// File 000, figure 5: by rising number of directions.
+void add_directions(const Contender& contender, const Estimate& estimate,
+                    const ComparisonReference& reference, Comparison& comparison) {
+  const ErrorStatistics error = measure(subtract(estimate.sky_view_factor, reference.sky_view_factor));
+  const std::string title =
+      std::to_string(contender.directions) + (contender.directions == 1 ? " direction" : " directions");
+  RenderedForm rendered = render_sky(title, contender.parameters, estimate.sky_view_factor, error.rmse);
+  auto& all = comparison.directions;
+  const auto place = std::find_if(all.begin(), all.end(), [&](const RenderedForm& one) {
+    return std::stoi(one.title) > contender.directions;
+  });
+  all.insert(place, std::move(rendered));
+}
+
 /// The reference's own maps, as if a method had found them.
 Estimate exact_estimate(const ComparisonReference& reference) {
   Estimate exact;
@@ -208,8 +228,10 @@ Comparison compare_methods(const ComparedScene& scene, const ComparisonReference
       comparison.roles.push_back({contender.role, contender.method, contender.parameters, cost.core});
       add_role(scene, reference, contender, estimate, comparison);
     }
+    if (contender.directions > 0) add_directions(contender, estimate, reference, comparison);
     progress.add(1);
   }
+  comparison.directions.push_back(render_sky("exact", itself.parameters, reference.sky_view_factor, 0));
   return comparison;
 }
 

@@ -61,12 +61,13 @@ struct StageCost {
 
 struct Comparison {
   std::vector<ComparisonRow> rows;
-  std::vector<ErrorMap> shown;         ///< of A, of the contenders that are shown
-  std::vector<RoleOfMethod> roles;     ///< exact AO first
-  std::vector<ErrorMap> total_errors;  ///< at the last albedo: role by role, form by form; thinned
-                                       ///< out, 0 × 0 where the role's AO does not tell what a form wants
-  std::vector<FormPanel> panels;       ///< of the exact AO, then of GTAO as games run it
-  std::vector<RenderedForm> rendered;  ///< likewise
+  std::vector<ErrorMap> shown;           ///< of A, of the contenders that are shown
+  std::vector<RoleOfMethod> roles;       ///< exact AO first
+  std::vector<ErrorMap> total_errors;    ///< at the last albedo: role by role, form by form; thinned
+                                         ///< out, 0 × 0 where the role's AO does not tell what a form wants
+  std::vector<FormPanel> panels;         ///< of the exact AO, then of GTAO as games run it
+  std::vector<RenderedForm> rendered;    ///< likewise
+  std::vector<RenderedForm> directions;  ///< A of GTAO by 1, 16 and 96 directions, and the exact one
   std::vector<StageCost> stages;
 };
 

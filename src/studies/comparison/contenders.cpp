@@ -154,6 +154,7 @@ std::vector<Contender> make_contenders(const ComparedScene& scene) {
                           .parameters = method.parameters,
                           .shown = method.shown,
                           .role = method.role,
+                          .directions = method.directions,
                           .finds_totals = method.finds_totals,
                           .run = [scene, &method](const std::vector<ComparedAlbedo>& albedos) {
                             return run_screen_space(scene, method, albedos);

@@ -28,6 +28,7 @@ struct Contender {
   bool shown = false;           ///< its errors are drawn, and closed forms are tried on it
   std::string role = {};        ///< what it stands for at the head of the report; empty: it is not there
   bool finds_occlusion = true;  ///< given no albedos
+  int directions = 0;           ///< per texel, of those that file 000's figure 5 shows; 0 of others
   bool finds_totals = false;    ///< of the albedos that it is given, beside its occlusion if it has one
   std::function<Estimate(const std::vector<ComparedAlbedo>& albedos)> run = {};
 };

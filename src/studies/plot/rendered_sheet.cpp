@@ -45,8 +45,9 @@ void plot_rendered(const std::filesystem::path& png, const std::vector<RenderedF
       const double left = static_cast<double>(width) * static_cast<double>(i % sheet.columns);
       const double top =
           total_height - 40 - static_cast<double>(height) * static_cast<double>(i / sheet.columns);
-      const std::string error =
-          rendered[i].label == "truth" ? std::string() : fmt::format("RMSE of E/π {:.4f}", rendered[i].rmse);
+      const std::string error = rendered[i].rmse > 0
+                                    ? fmt::format("RMSE of {} {:.4f}", sheet.quantity, rendered[i].rmse)
+                                    : std::string();
       script
           << fmt::format(
                  "set lmargin at screen {:.5f}\nset rmargin at screen {:.5f}\nset tmargin at screen "

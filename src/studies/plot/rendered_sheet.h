@@ -11,6 +11,7 @@ namespace heightlight {
 /// What a sheet of renderings says of itself.
 struct RenderedSheet {
   std::string title;
+  std::string quantity = "E/π";  ///< that RMSEs are of
   std::size_t columns = 1;
 };
 
