@@ -74,6 +74,7 @@ std::array<Tap, 4> find_taps(const DepthBuffer& depth, const Halving& rows, cons
     tap.row = wrap_or_clamp(top + below, rows.half, depth.boundary);
     tap.column = wrap_or_clamp(left + beside, columns.half, depth.boundary);
     tap.weight = (below == 1 ? down : 1 - down) * (beside == 1 ? right : 1 - right);
+    if (tap.weight <= 0) continue;  // as three of four are where a texel was kept
     const NeighbourPlace place{.row = rows.source(tap.row),
                                .column = columns.source(tap.column),
                                .x = static_cast<float>((beside - u + left) * 2 * depth.spacing.x),
