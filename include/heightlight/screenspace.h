@@ -194,7 +194,7 @@ inline constexpr const char* kRoleOfGames = "GTAO as games run it";
 struct ScreenSpaceMethod {
   std::string name;        ///< of the method: "gtao"
   std::string parameters;  ///< in words, without commas
-  /// Representative: its error is drawn, and closed forms are tried on it.
+  /// Representative: its error is drawn, and those of closed forms on it.
   bool shown = false;
   std::string role = {};      ///< of the few that stand at the head of reports: kRoleOfGames, say
   bool finds_totals = false;  ///< for each albedo that it is given

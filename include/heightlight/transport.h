@@ -129,6 +129,17 @@ struct FormFactorRow {
 /// Σ F_ij x_j is what gather(x) gives it.
 FormFactorRow form_factor_row(const FormFactors& form_factors, int row, int column);
 
+/// Obscurance and ambient transfer (file 002, eqs. 5 and 6); NaN where the sample is missing.
+struct AmbientTransfer {
+  Map obscurance;             ///< O = A + Σ F μ, [0, 1]
+  std::vector<Map> transfer;  ///< W = O/(1 − Σ F (1 − μ) ρ) per channel of the albedo, [0, 1]
+};
+
+/// From links, with μ of a reach. On a tiling map distances are those to the nearest copy of what is seen:
+/// the reach must not pass half the map.
+AmbientTransfer find_ambient_transfer(const Surface& surface, const FormFactors& form_factors,
+                                      const Reach& reach, const Albedo& albedo);
+
 /// What finding links may use, and who watches it.
 struct LinkLimits {
   std::uint64_t memory = ~0ULL;  ///< bytes that links may take

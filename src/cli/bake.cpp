@@ -9,6 +9,7 @@
 #include "cli/commands.h"
 #include "cli/map_options.h"
 #include "cli/name_errors.h"
+#include "cli/reach_options.h"
 #include "cli/tell.h"
 #include "cli/terminal_watch.h"
 #include "cli/user_message.h"
@@ -45,12 +46,9 @@ BakeOutcome bake_file(const BakeCommand& command, const BakeInput& input, const 
   ReadAlbedo albedo = read_albedo(command.albedo, loaded.map, command.run.memory);
   options.albedo = std::move(albedo.albedo);
   if (!command.max_distance.empty()) {
-    const Falloff falloff = command.falloff == "linear"        ? Falloff::linear
-                            : command.falloff == "sqrt"        ? Falloff::root
-                            : command.falloff == "exponential" ? Falloff::exponential
-                                                               : Falloff::none;
     const double width = loaded.map.spacing.x * loaded.map.height.width;
-    options.reach = Reach{.distance = parse_distance(command.max_distance, width), .falloff = falloff};
+    options.reach = Reach{.distance = parse_distance("max_distance", command.max_distance, width),
+                          .falloff = parse_falloff(command.falloff)};
   }
   options.surface = surface_of(command, loaded.facts.sha256);
   options.request = request_of(command, loaded.facts.sha256, albedo.sha256);
@@ -171,7 +169,7 @@ void add_map_content_options(CLI::App& app, BakeCommand& command) {
          "--falloff", command.falloff,
          "what is nearer than --max-distance occludes: wholly (none, default), or by 1 - d/D (linear), "
          "1 - sqrt(d/D) (sqrt), or by exp(-4 d/D), shifted to end at D (exponential)")
-      ->check(CLI::IsMember({"none", "linear", "sqrt", "exponential"}));
+      ->check(CLI::IsMember(falloff_names()));
   app.add_flag("--bent-length", options.bent_length, "keep the length of bent normals in alpha");
   app.add_option("--horizon-azimuths", options.horizon_azimuths, "azimuths of the horizon map (4)");
 }

@@ -30,9 +30,6 @@ struct BakeCommand {
 /// Reads the texts, all that does not depend on a map. Throws UsageError for what no map can be baked with.
 void parse_bake_options(BakeCommand& command);
 
-/// "0.05", or "5%" of a width: a length. Throws UsageError.
-double parse_distance(const std::string& text, double width);
-
 /// All that a map's files depend on, as one text: with the checksums of the heightmap and of the albedo,
 /// where that is a file, as they were read.
 std::string request_of(const BakeCommand& command, const std::string& map_sha256,

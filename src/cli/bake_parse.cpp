@@ -4,6 +4,7 @@
 
 #include "cli/albedo.h"
 #include "cli/bake_command.h"
+#include "cli/reach_options.h"
 #include "heightlight/error.h"
 #include "visibility/reach_table.h"
 
@@ -84,16 +85,6 @@ void parse_depth(const std::string& text, BakeOptions& options) {
 
 }  // namespace
 
-double parse_distance(const std::string& text, double width) {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  const std::string unit = end;
-  if (end == text.c_str() || (!unit.empty() && unit != "%")) {
-    throw UsageError("max_distance", text, "write a length in world units, or a share of the width (5%)");
-  }
-  return unit.empty() ? value : value / 100 * width;
-}
-
 void parse_bake_options(BakeCommand& command) {
   BakeOptions& options = command.options;
   for (const std::string& name : split_at_commas(command.maps)) {
@@ -109,7 +100,8 @@ void parse_bake_options(BakeCommand& command) {
   if (command.falloff != "none" && command.max_distance.empty()) {
     throw UsageError("falloff", "", "needs --max-distance, where it ends");
   }
-  if (!command.max_distance.empty()) check_reach({.distance = parse_distance(command.max_distance, 1)});
+  if (!command.max_distance.empty())
+    check_reach({.distance = parse_distance("max_distance", command.max_distance, 1)});
   check_load_options(command.load);
   check_albedo(command.albedo);
   BakeOptions any_albedo = options;  // how many channels it has, a file may have to tell

@@ -1,17 +1,34 @@
 #include "cli/bounce_sink.h"
 
+#include <algorithm>
+
+#include "cli/reach_options.h"
 #include "cli/simulation_files.h"
 #include "files/saved_run.h"
+#include "heightlight/error.h"
 
 namespace heightlight {
 namespace {
 
 constexpr int kPreviewedBounces = 6;
 
+Reach obscurance_reach(const SimulateOptions& options, const Surface& surface) {
+  const double width = surface.map.spacing.x * surface.width();
+  const double height = surface.map.spacing.y * surface.height();
+  const Reach reach{.distance = parse_distance("obscurance", options.obscurance, width),
+                    .falloff = parse_falloff(options.falloff)};
+  if (surface.tiles() && reach.distance > std::min(width, height) / 2)
+    throw UsageError("obscurance", options.obscurance, "passes half of a map that tiles");
+  return reach;
+}
+
 }  // namespace
 
-SimulationSink::SimulationSink(const Surface& surface, const SimulateOptions& options, StagedFolder& folder)
-    : surface_(surface), options_(options), folder_(folder) {}
+SimulationSink::SimulationSink(const Surface& surface, const Albedo& albedo, const SimulateOptions& options,
+                               StagedFolder& folder)
+    : surface_(surface), albedo_(albedo), options_(options), folder_(folder) {
+  if (!options.obscurance.empty()) reach_ = obscurance_reach(options, surface);
+}
 
 void SimulationSink::take_sky(const Map& ambient_occlusion, const Map& sky_view_factor) {
   alpha_.emplace(ambient_occlusion, AoKind::ambient_occlusion, options_.bins);
@@ -20,6 +37,7 @@ void SimulationSink::take_sky(const Map& ambient_occlusion, const Map& sky_view_
 
 void SimulationSink::take_links(const FormFactors& form_factors) {
   if (options_.save_links) write_form_factors(folder_.file("links.npz"), form_factors);
+  if (reach_) write_transfer(folder_, find_ambient_transfer(surface_, form_factors, *reach_, albedo_));
 }
 
 void SimulationSink::take_bounce(int b, const TexelVector& irradiance) {

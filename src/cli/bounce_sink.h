@@ -13,8 +13,9 @@ namespace heightlight {
 /// The bounces on their way: into curves, previews and, where asked, files.
 class SimulationSink : public BounceSink {
  public:
-  /// All three must outlive it.
-  SimulationSink(const Surface& surface, const SimulateOptions& options, StagedFolder& folder);
+  /// All four must outlive it. Throws UsageError for an obscurance that passes half of a tiling map.
+  SimulationSink(const Surface& surface, const Albedo& albedo, const SimulateOptions& options,
+                 StagedFolder& folder);
 
   void take_sky(const Map& ambient_occlusion, const Map& sky_view_factor) override;
   void take_links(const FormFactors& form_factors) override;
@@ -31,8 +32,10 @@ class SimulationSink : public BounceSink {
 
  private:
   const Surface& surface_;
+  const Albedo& albedo_;
   const SimulateOptions& options_;
   StagedFolder& folder_;
+  std::optional<Reach> reach_;  ///< of the obscurance, where that is asked for
   std::optional<CurveBuilder> alpha_;
   std::optional<CurveBuilder> sky_;
   std::vector<Map> first_;

@@ -84,12 +84,20 @@ std::uint64_t memory_for_methods(const CompareOptions& options, const Surface& s
 }
 
 std::vector<std::string> result_names() {
-  std::vector<std::string> names{"compare.csv",      "compare.json", "report.md",     "forms.svg",
-                                 "forms.png",        "pareto.svg",   "pareto.png",    "errors.png",
-                                 "total_errors.png", "showtime.png", "directions.png"};
+  std::vector<std::string> names{"compare.csv",      "compare.json", "report.md",      "forms.svg",
+                                 "forms.png",        "pareto.svg",   "pareto.png",     "errors.png",
+                                 "total_errors.png", "showtime.png", "directions.png", "forms.glsl",
+                                 "forms.hlsl"};
   const std::vector<std::string> shown = shown_methods();
   for (std::size_t i = 0; i < shown.size(); ++i) names.push_back(error_picture_name(i + 1, shown[i]));
   return names;
+}
+
+/// The forms of the list as published, then the user's as fitted to the map.
+std::string shader_of_forms(const std::vector<FormOnMap>& own_forms, ShaderLanguage language) {
+  std::string text = shader_text(language, {});
+  for (const FormOnMap& own : own_forms) text += '\n' + user_form_shader(own.form, language, own.constants);
+  return text;
 }
 
 void compare_on(const CompareOptions& options, const Surface& surface, LoadedHeightmap& loaded,
@@ -132,6 +140,10 @@ void compare_on(const CompareOptions& options, const Surface& surface, LoadedHei
                           .warnings = loaded.warnings};
   write_comparison_csv(folder.file("compare.csv"), comparison.rows);
   write_report(folder.file("report.md"), input);
+  if (!own_forms.empty()) {
+    write_bytes(folder.file("forms.glsl"), shader_of_forms(own_forms, ShaderLanguage::glsl));
+    write_bytes(folder.file("forms.hlsl"), shader_of_forms(own_forms, ShaderLanguage::hlsl));
+  }
   write_error_pictures(folder, comparison.shown);
   draw_comparison(folder, input, plots);
   const std::vector<FileRecord> files = folder.written();
@@ -178,7 +190,7 @@ void add_compare_command(CLI::App& app) {
       "GTAO's;\n"
       "forms, pareto (.svg, .png), showtime.png (how it looks), errors.png, total_errors.png, "
       "directions.png,\n"
-      "error_NN_METHOD.png; compare.csv, compare.json.\n"
+      "error_NN_METHOD.png; compare.csv, compare.json; forms.glsl and .hlsl where --form gives one.\n"
       "Examples:\n"
       "  heightlight compare brick.png -o brick\n"
       "  heightlight compare dem.tif -o dem --texel 50 --boundary open --albedo 0.3\n"

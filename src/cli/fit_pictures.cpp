@@ -79,6 +79,33 @@ CubicConstants cubic_line(const FitReport& report, const char* name) {
   return {p[0], p[1], p[2], p[3], p[4], p[5]};
 }
 
+/// A user's forms as panels, where AO alone tells them.
+void add_own_panels(const FitReport& report, std::vector<FittedPanel>& panels) {
+  const auto inputs_of = [](AoKind kind, double ao) {
+    ModelInputs inputs;
+    if (kind == AoKind::ambient_occlusion) {
+      inputs.ambient_occlusion = AmbientOcclusion(ao);
+    } else {
+      inputs.sky_view_factor = SkyViewFactor(ao);
+    }
+    return inputs;
+  };
+  for (const ClosedForm& form : report.forms.fixed) {
+    if (form.source != kUserFormSource || form.extra != ExtraInput::none || form.both_kinds) continue;
+    panels.push_back(panel(report, form.name, form.kind, [&](double ao, double albedo) {
+      return form.evaluate(inputs_of(form.kind, ao), albedo)
+          .value_or(std::numeric_limits<double>::quiet_NaN());
+    }));
+  }
+  for (const FittedFamily& fitted : report.families) {
+    const FormFamily& family = *fitted.family;
+    if (family.source != kUserFormSource || family.extra != ExtraInput::none || family.both_kinds) continue;
+    panels.push_back(panel(report, family.name + ", fitted here", family.kind, [&](double ao, double albedo) {
+      return family.evaluate(fitted.fit.parameters, inputs_of(family.kind, ao), albedo);
+    }));
+  }
+}
+
 }  // namespace
 
 std::vector<FittedPanel> fitted_panels(const FitReport& report) {
@@ -108,6 +135,7 @@ std::vector<FittedPanel> fitted_panels(const FitReport& report) {
           return fitted->family->evaluate(fitted->fit.parameters, inputs, albedo);
         }));
   }
+  add_own_panels(report, panels);
   return panels;
 }
 

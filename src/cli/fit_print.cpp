@@ -14,9 +14,12 @@ void print_parameters(const FittedFamily& fitted) {
   for (std::size_t p = 0; p < family.parameters.size(); ++p) {
     const auto i = static_cast<Eigen::Index>(p);
     const double value = fitted.fit.parameters[i];
-    fmt::print("  {:<9} {:10.5g}  95% {:.5g} … {:.5g}   {} {:.5g} ({:+.2g})\n", family.parameters[p], value,
+    fmt::print("  {:<9} {:10.5g}  95% {:.5g} … {:.5g}   {} {:.5g} ({:+.2g}){}\n", family.parameters[p], value,
                fitted.intervals.low[i], fitted.intervals.high[i], start, family.published[p],
-               value - family.published[p]);
+               value - family.published[p],
+               is_determined(family, fitted.fit.parameters, fitted.intervals, i)
+                   ? ""
+                   : "  these maps hardly tell it");
   }
   fmt::print("  RMS over the points: {:.4f}, at the {} parameters {:.4f}\n", fitted.fit.rms, start,
              fitted.published_rms);

@@ -45,7 +45,8 @@ Json describe_family(const FittedFamily& fitted) {
                           {start, family.published[p]},
                           {"standard_error", std::sqrt(fitted.fit.covariance(i, i))},
                           {"low", fitted.intervals.low[i]},
-                          {"high", fitted.intervals.high[i]}});
+                          {"high", fitted.intervals.high[i]},
+                          {"determined", is_determined(family, fitted.fit.parameters, fitted.intervals, i)}});
   }
   Json covariance = Json::array();
   for (Eigen::Index row = 0; row < fitted.fit.covariance.rows(); ++row) {

@@ -5,6 +5,7 @@
 
 #include "base/byte_size.h"
 #include "cli/commands.h"
+#include "cli/reach_options.h"
 #include "cli/simulation.h"
 #include "cli/terminal_watch.h"
 #include "cli/warnings.h"
@@ -59,6 +60,14 @@ void add_simulate_command(CLI::App& app) {
   command->add_flag("--save-links", options->save_links,
                     "with rays or --error 0: also write links.npz, the form factors as scipy.sparse.load_npz "
                     "reads them");
+  command
+      ->add_option(
+          "--obscurance", options->obscurance,
+          "with rays or --error 0: also write obscurance.exr and ambient_transfer.exr (file 002, eqs. 5 and "
+          "6),\nof occluders nearer than that, in world units or percent of the width")
+      ->type_name("D|P%");
+  command->add_option("--falloff", options->falloff, "of them: none, linear, sqrt (default) or exponential")
+      ->check(CLI::IsMember(falloff_names()));
   add_run_options(*command, options->run);
   command->footer(
       "Examples:\n"

@@ -4,6 +4,7 @@
 #include "base/stopwatch.h"
 #include "cli/bounce_sink.h"
 #include "cli/name_errors.h"
+#include "cli/reach_options.h"
 #include "cli/simulation.h"
 #include "cli/simulation_files.h"
 #include "files/input_file.h"
@@ -43,7 +44,9 @@ Albedo read_input_albedo(const SimulateOptions& options, const Heightmap& map) {
 std::uint64_t bytes_held(const SimulateOptions& options, const Surface& surface, const Albedo& albedo) {
   const std::uint64_t ends =
       options.save_links ? sizeof(std::int64_t) : 0;  // of rows, while links are written
-  const std::uint64_t per_texel = ends + SimulationSink::bytes_per_texel() +
+  const std::uint64_t transfer =
+      options.obscurance.empty() ? 0 : (1 + albedo.channels()) * sizeof(Map::value_type);
+  const std::uint64_t per_texel = ends + transfer + SimulationSink::bytes_per_texel() +
                                   albedo.channels() * sizeof(Map::value_type) +
                                   albedo.varying.size() * sizeof(TexelVector::value_type);
   return surface.map.height.size() * per_texel;
@@ -93,6 +96,13 @@ void check_simulate_options(const SimulateOptions& options) {
   const bool has_links = options.visibility.by_rays() || options.visibility.error == 0.0;
   if (options.save_links && !has_links)
     throw UsageError("save-links", "", "needs --visibility rays or --error 0: horizon walks store no links");
+  if (!options.obscurance.empty()) {
+    if (!has_links)
+      throw UsageError("obscurance", "",
+                       "needs --visibility rays or --error 0: horizon walks store no links");
+    if (!(parse_distance("obscurance", options.obscurance, 1) > 0))
+      throw UsageError("obscurance", options.obscurance, "must be positive");
+  }
   if (options.bounces < 1 || options.bounces > 1000) {
     throw UsageError("bounces", std::to_string(options.bounces), "must be from 1 to 1000");
   }
@@ -118,7 +128,7 @@ Simulation simulate_map(const SimulateOptions& options, Plots& plots, const Watc
   const Albedo albedo = read_input_albedo(options, surface.map);
   seconds.load = lap.lap();
 
-  SimulationSink sink(surface, options, folder);
+  SimulationSink sink(surface, albedo, options, folder);
   const Results results = name_errors(options.map.path, [&] {
     Request request = make_request(options, albedo, watch);
     request.limits.memory = memory_to_solve(options, surface, albedo);

@@ -31,6 +31,8 @@ struct SimulateOptions {
   std::string albedo = "0.5";
   bool save_bounces = false;
   bool save_links = false;
+  std::string obscurance;        ///< a distance, up to which occluders count; empty: it is not asked for
+  std::string falloff = "sqrt";  ///< of the occluders within it
 };
 
 /// Seconds that each step took beside the solution's own.

@@ -16,6 +16,8 @@ std::vector<std::string> simulation_file_names(int bounces) {
                                  "sky_view_factor.exr",
                                  "irradiance_total.exr",
                                  "links.npz",
+                                 "obscurance.exr",
+                                 "ambient_transfer.exr",
                                  "curves.csv",
                                  "curves.svg",
                                  "curves.png",
@@ -33,13 +35,29 @@ void write_map(StagedFolder& folder, const std::string& name, const Map& map, co
   write_float_image(folder.file(name), {{"Y", &map}}, Attributes{{"ImageDescription", meaning}});
 }
 
-void write_totals(StagedFolder& folder, const std::vector<Map>& totals) {
+namespace {
+
+/// One map, Y, or three, R, G, B.
+void write_channels(StagedFolder& folder, const std::string& name, const std::vector<Map>& maps,
+                    const std::string& meaning) {
   static constexpr const char* kColour[] = {"R", "G", "B"};
   std::vector<std::pair<std::string, const Map*>> channels;
-  for (std::size_t i = 0; i < totals.size(); ++i)
-    channels.push_back({totals.size() == 1 ? "Y" : kColour[i], &totals[i]});
-  write_float_image(folder.file("irradiance_total.exr"), channels,
-                    Attributes{{"ImageDescription", "E / pi of all bounces, at the albedo given"}});
+  for (std::size_t i = 0; i < maps.size(); ++i)
+    channels.push_back({maps.size() == 1 ? "Y" : kColour[i], &maps[i]});
+  write_float_image(folder.file(name), channels, Attributes{{"ImageDescription", meaning}});
+}
+
+}  // namespace
+
+void write_totals(StagedFolder& folder, const std::vector<Map>& totals) {
+  write_channels(folder, "irradiance_total.exr", totals, "E / pi of all bounces, at the albedo given");
+}
+
+void write_transfer(StagedFolder& folder, const AmbientTransfer& found) {
+  write_map(folder, "obscurance.exr", found.obscurance,
+            "obscurance: O = A + sum of F mu (Umenhoffer et al.)");
+  write_channels(folder, "ambient_transfer.exr", found.transfer,
+                 "ambient transfer: W = O/(1 - sum of F (1 - mu) albedo) (Umenhoffer et al., eq. 6)");
 }
 
 void write_occlusion(StagedFolder& folder, const Results& results) {

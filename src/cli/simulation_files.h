@@ -19,6 +19,9 @@ void write_map(StagedFolder& folder, const std::string& name, const Map& map, co
 /// `irradiance_total.exr`: one map, Y, or three, R, G, B. Throws OutputError.
 void write_totals(StagedFolder& folder, const std::vector<Map>& totals);
 
+/// `obscurance.exr` and `ambient_transfer.exr`. Throws OutputError.
+void write_transfer(StagedFolder& folder, const AmbientTransfer& found);
+
 /// `ambient_occlusion.exr` and `sky_view_factor.exr`. Throws OutputError.
 void write_occlusion(StagedFolder& folder, const Results& results);
 

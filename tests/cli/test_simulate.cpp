@@ -13,6 +13,32 @@
 namespace heightlight {
 namespace {
 
+TEST_CASE("simulate writes obscurance and ambient transfer from links, and refuses them without",
+          "[cli][simulate]") {
+  const ScratchFolder folder;
+  REQUIRE(run_command("synth fbm -o map.png --size 32", folder).exit_code == 0);
+  const CommandResult run = run_command(
+      "simulate map.png -o out --error 0 --azimuths 16 --bounces 2 --obscurance 20% --falloff exponential "
+      "--albedo 0.6,0.3,0.1 --quiet",
+      folder);
+  INFO(run.error);
+  REQUIRE(run.exit_code == 0);
+  for (const char* name : {"out/obscurance.exr", "out/ambient_transfer.exr"})
+    CHECK(std::filesystem::file_size(folder / name) > 1000);
+  for (const auto& [options, fault] :
+       {std::pair{"--obscurance 20%", "--obscurance: needs --visibility rays or --error 0"},
+        std::pair{"--rays 8 --obscurance 60%", "passes half of a map that tiles"},
+        std::pair{"--rays 8 --obscurance near", "write a length in world units"},
+        std::pair{"--rays 8 --obscurance -1", "must be positive"}}) {
+    const CommandResult refused =
+        run_command(std::string("simulate map.png -o no --bounces 2 ") + options, folder);
+    INFO(refused.error);
+    CHECK(refused.exit_code == 2);
+    CHECK(refused.error.find(fault) != std::string::npos);
+    CHECK_FALSE(std::filesystem::exists(folder / "no"));
+  }
+}
+
 TEST_CASE("simulate writes every file that the design names, and says what it did", "[cli]") {
   const ScratchFolder folder;
   REQUIRE(run_command("synth brick -o 'a wall.png' --size 40 --seed 3", folder).exit_code == 0);

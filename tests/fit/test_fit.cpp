@@ -148,6 +148,10 @@ TEST_CASE("what maps alike do not determine stays near what is known", "[fit]") 
     CHECK(std::abs(fit.parameters[p] - family.published[static_cast<std::size_t>(p)]) < 0.3);
   const ParameterIntervals intervals = bootstrap_family(family, points, maps, fit.parameters, 50, 1);
   CHECK((intervals.high - intervals.low).maxCoeff() < 1);
+  CHECK(is_determined(family, fit.parameters, intervals, 0));
+  ParameterIntervals wide = intervals;
+  wide.low[0] = -9;
+  CHECK_FALSE(is_determined(family, fit.parameters, wide, 0));
 }
 
 TEST_CASE("fits that can't be are errors that name them", "[fit]") {

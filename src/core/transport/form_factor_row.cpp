@@ -2,7 +2,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "heightlight/transport.h"
+#include "transport/link_corners.h"
 
 namespace heightlight {
 namespace {
@@ -16,19 +16,10 @@ struct Entry {
 void add_link(const FormFactors& form_factors, const Link& link, double weight, std::vector<Entry>& entries) {
   const auto width = static_cast<std::uint64_t>(form_factors.width);
   const auto height = static_cast<std::uint64_t>(form_factors.height);
-  const std::uint64_t row = link.cell / (width + 1);
-  const std::uint64_t column = link.cell % (width + 1);
-  const double across = link.across / 255.0;
-  const double down = link.down / 255.0;
-  const double both = std::min(across, down);
-  const auto add = [&](std::uint64_t below, std::uint64_t right, double share) {
-    if (share > 0)
-      entries.push_back({(row + below) % height * width + (column + right) % width, weight * share});
-  };
-  add(0, 0, 1 - std::max(across, down));
-  add(0, 1, across - both);
-  add(1, 0, down - both);
-  add(1, 1, both);
+  for (const LinkCorner& corner : corners_of(link, form_factors.width)) {
+    if (corner.share <= 0) continue;
+    entries.push_back({corner.row % height * width + corner.column % width, weight * corner.share});
+  }
 }
 
 }  // namespace

@@ -76,7 +76,8 @@ class RowWriter {
             .quantity = quantity,
             .cost = cost,
             .samples_per_texel = estimate.samples_per_texel,
-            .error = error};
+            .error = error,
+            .shown = contender.shown};
   }
 
   /// Of the texels of the surface, those for which a closed form has no value.
@@ -212,10 +213,10 @@ Comparison compare_methods(const ComparedScene& scene, const ComparisonReference
     if (contender.finds_occlusion) {
       cost = least_cost([&] { estimate = contender.run({}); });
       writer.add_occlusion(contender, estimate, cost);
+      writer.add_closed_forms(contender, estimate, cost);
     }
     if (contender.finds_totals) compare_totals(scene, writer, contender, cost, comparison);
     if (contender.shown) {
-      writer.add_closed_forms(contender, estimate, cost);
       writer.add_two_tone(contender, estimate, cost);
       Map differences = subtract(estimate.sky_view_factor, reference.sky_view_factor);
       const ErrorStatistics error = measure(differences);

@@ -30,6 +30,7 @@ struct ComparisonRow {
   double samples_per_texel = 0;  ///< depths or rays; 0 where a method does not count them
   ErrorStatistics error = {};
   double outside_share = 0;  ///< of the texels that have AO: outside a closed form's domain, and in no error
+  bool shown = false;        ///< of a representative method
 };
 
 /// The method whose rows say what closed forms err by where they are fed the reference's own AO.
@@ -72,8 +73,8 @@ struct Comparison {
 };
 
 /// Runs all contenders and compares them with the reference: A, α, the bent normal and the totals, as far as
-/// each has them. The closed forms are tried on the A (or α, as they want) of those that are shown, and of
-/// the reference itself.
+/// each has them. The closed forms are tried on every method's own A (or α, as they want), and on the
+/// reference's.
 Comparison compare_methods(const ComparedScene& scene, const ComparisonReference& reference,
                            const std::vector<Contender>& contenders, const Watch& watch);
 

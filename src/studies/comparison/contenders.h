@@ -25,7 +25,7 @@ struct Estimate {
 struct Contender {
   std::string method;
   std::string parameters;
-  bool shown = false;           ///< its errors are drawn, and closed forms are tried on it
+  bool shown = false;           ///< its errors are drawn, and those of closed forms on it
   std::string role = {};        ///< what it stands for at the head of the report; empty: it is not there
   bool finds_occlusion = true;  ///< given no albedos
   int directions = 0;           ///< per texel, of those that file 000's figure 5 shows; 0 of others

@@ -1,6 +1,7 @@
 #include "fit/bootstrap.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "base/hash.h"
@@ -33,6 +34,13 @@ std::vector<double> draw_with_replacement(std::size_t count, std::uint64_t seed)
 }
 
 }  // namespace
+
+bool is_determined(const FormFamily& family, const VectorXd& best, const ParameterIntervals& intervals,
+                   Eigen::Index parameter) {
+  const double size =
+      std::max(std::abs(best[parameter]), std::abs(family.published[static_cast<std::size_t>(parameter)]));
+  return intervals.high[parameter] - intervals.low[parameter] <= 2 * size;
+}
 
 ParameterIntervals bootstrap_family(const FormFamily& family, const std::vector<FitPoint>& points,
                                     const std::vector<JudgedMap>& maps, const VectorXd& best, int draws,

@@ -17,6 +17,10 @@ struct ParameterIntervals {
   Eigen::VectorXd high;
 };
 
+/// Whether the maps tell a parameter: its interval is no wider than twice what it is, or was published as.
+bool is_determined(const FormFamily& family, const Eigen::VectorXd& best, const ParameterIntervals& intervals,
+                   Eigen::Index parameter);
+
 /// Bootstrap: fits to as many materials (or points) as there are, drawn with replacement; 2.5 % and 97.5 % of
 /// what comes out. Draws whose fit fails are left out; throws Error where that is more than a tenth of them.
 ParameterIntervals bootstrap_family(const FormFamily& family, const std::vector<FitPoint>& points,

@@ -58,7 +58,9 @@ Points points_of(const std::vector<ComparisonRow>& rows, const std::string& quan
                  const std::string& method, const std::string& variant) {
   Points points;
   for (const ComparisonRow& row : rows) {
-    if (row.quantity == quantity && row.method == method && row.variant == variant && row.error.rmse > 0) {
+    const bool is_drawn = row.variant.empty() || row.shown;  // forms on all parameters would hide each other
+    if (row.quantity == quantity && row.method == method && row.variant == variant && row.error.rmse > 0 &&
+        is_drawn) {
       points.push_back({row.cost.core, row.error.rmse});
     }
   }

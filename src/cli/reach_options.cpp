@@ -1,0 +1,30 @@
+#include "cli/reach_options.h"
+
+#include <cstdlib>
+
+#include "heightlight/error.h"
+
+namespace heightlight {
+
+double parse_distance(const std::string& quantity, const std::string& text, double width) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  const std::string unit = end;
+  if (end == text.c_str() || (!unit.empty() && unit != "%")) {
+    throw UsageError(quantity, text, "write a length in world units, or a share of the width (5%)");
+  }
+  return unit.empty() ? value : value / 100 * width;
+}
+
+const std::vector<std::string>& falloff_names() {
+  static const std::vector<std::string> names{"none", "linear", "sqrt", "exponential"};
+  return names;
+}
+
+Falloff parse_falloff(const std::string& name) {
+  if (name == "linear") return Falloff::linear;
+  if (name == "sqrt") return Falloff::root;
+  return name == "exponential" ? Falloff::exponential : Falloff::none;
+}
+
+}  // namespace heightlight
