@@ -100,6 +100,19 @@ std::string shader_of_forms(const std::vector<FormOnMap>& own_forms, ShaderLangu
   return text;
 }
 
+/// Where the user's forms say nothing on exact AO, which a table alone would tell too softly.
+std::vector<std::string> find_poles(const std::vector<FormOnMap>& own_forms, const Answer& answer) {
+  std::vector<std::string> faults;
+  for (const FormOnMap& own : own_forms) {
+    for (const AnswerLine& line : answer.groups.front().lines) {
+      if (line.form == own.form.name && line.outside_share > 0)
+        faults.push_back(fmt::format("form {} has no finite value on {:.2g} % of the texels", line.form,
+                                     100 * line.outside_share));
+    }
+  }
+  return faults;
+}
+
 void compare_on(const CompareOptions& options, const Surface& surface, LoadedHeightmap& loaded,
                 const std::vector<UserForm>& own, StagedFolder& folder, Plots& plots) {
   const Watch terminal = terminal_watch(options.run.quiet);
@@ -130,6 +143,7 @@ void compare_on(const CompareOptions& options, const Surface& surface, LoadedHei
 
   for (const std::string& fault : find_faults(reference.total_evidence))
     loaded.warnings.push_back({"the reference: " + fault});
+  for (const std::string& fault : find_poles(own_forms, answer)) loaded.warnings.push_back({fault});
   const ReportInput input{.map_name = printable(options.map.path.filename()),
                           .scene = scene,
                           .reference = reference,

@@ -95,6 +95,8 @@ TEST_CASE("compare fits and judges a user's own form", "[cli][compare][user-form
   INFO(run.error);
   REQUIRE(run.exit_code == 0);
   const nlohmann::json evidence = nlohmann::json::parse(read_text(folder / "out/compare.json"));
+  CHECK(run.error.find("warning: map.png: form holes has no finite value on ") != std::string::npos);
+  CHECK(run.error.find("form mine") == std::string::npos);
   const nlohmann::json& mine = evidence["own_forms"][0];
   CHECK(mine["name"] == "mine");
   CHECK(mine["constants"]["k"] > 0.5);
