@@ -81,6 +81,25 @@ TEST_CASE("ratios end where bounces are too faint, and bins without texels to sp
   CHECK(std::isnan(ratios.bins[0].ratios[18]));
 }
 
+TEST_CASE("a bounce that a few open bins do not determine is a fault of its own", "[fit][bounces]") {
+  JudgedMap map;
+  map.name = map.material = "open";
+  map.over_alpha = make_curves([](double alpha, std::size_t b) {
+    return b == 0 ? alpha : std::pow(1 - alpha, 1.5) * std::exp(-30.0 * static_cast<double>(b) * alpha);
+  });
+  std::erase_if(map.over_alpha.filled, [](const CurveBin& bin) { return bin.ao_mean < 0.9; });
+  map.over_sky = map.over_alpha;
+  for (const BounceFit& fit : fit_bounces({map}, 20, 1, {})) {
+    INFO("b = " << fit.bounce);
+    if (!fit.fault.empty()) continue;
+    for (std::size_t c = 0; c < 3; ++c) {
+      CHECK(std::isfinite(fit.constants[c]));
+      CHECK(std::isfinite(fit.high[c]));
+    }
+    CHECK(fit.high[0] <= 1e9);
+  }
+}
+
 TEST_CASE("free fits of single bounces recover their constants within their intervals", "[fit][bounces]") {
   const auto truth = [](std::size_t b) {
     const auto bounce = static_cast<double>(b);

@@ -14,6 +14,9 @@ namespace {
 /// C of the notes' F₁ (eq. 11).
 constexpr double kPublishedExponent = 0.25;
 
+/// A and B slide along a valley that few texels leave open: where A passes this they have.
+constexpr double kLargestGain = 1e9;
+
 std::array<double, 3> to_constants(const Eigen::VectorXd& parameters) {
   return {std::exp(parameters[0]), parameters[1], parameters[2]};
 }
@@ -72,9 +75,13 @@ std::vector<BounceFit> fit_bounces(const std::vector<JudgedMap>& maps, int draws
       const LeastSquaresFit fit = fit_family(family, points, std::vector<double>(maps.size(), 1));
       const ParameterIntervals intervals =
           bootstrap_family(family, points, maps, fit.parameters, draws, seed + bounce);
-      one.constants = start = to_constants(fit.parameters);
+      one.constants = to_constants(fit.parameters);
+      if (!(one.constants[0] < kLargestGain))
+        throw Error("the fit of " + family.name + ": A runs away, the data do not determine it");
+      start = one.constants;
       one.low = to_constants(intervals.low);
       one.high = to_constants(intervals.high);
+      one.high[0] = std::min(one.high[0], kLargestGain);
       one.rms = fit.rms;
     } catch (const Error& error) {
       one.fault = error.what();

@@ -16,11 +16,11 @@ namespace heightlight {
 struct BounceFit {
   std::size_t bounce = 1;
   std::array<double, 3> constants = {};  ///< A, B, C
-  std::array<double, 3> low = {};        ///< 95 % intervals, of the bootstrap
+  std::array<double, 3> low = {};        ///< 95 % intervals, of the bootstrap; of A up to 1e9
   std::array<double, 3> high = {};
   double rms = 0;
   double peak = 0;    ///< greatest bin mean: what the RMS is to be held against
-  std::string fault;  ///< why it could not be fitted; empty where it could
+  std::string fault;  ///< why it could not be fitted, or A runs away; empty where it could
 };
 
 /// The form at constants A, B, C; α in [0, 1].
