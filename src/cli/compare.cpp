@@ -65,9 +65,10 @@ std::uint64_t bytes_held(const Surface& surface, std::size_t albedos, std::size_
   constexpr std::uint64_t kReference = 5 * kMap + sizeof(Vector3);
   constexpr std::uint64_t kEstimate = 4 * kMap + sizeof(Vector3);
   constexpr std::uint64_t kTwoTone = 3 * kMap + 3 * kMap;  // three channels of differences, and their sizes
+  constexpr std::uint64_t kPanels = sizeof(std::size_t);   // texels sorted by AO
   const std::uint64_t per_albedo = 2 * kMap + kMap + sizeof(TexelVector::value_type);
   const std::uint64_t per_texel =
-      kSurface + kReference + kEstimate + kTwoTone + albedos * per_albedo + shown * kMap;
+      kSurface + kReference + kEstimate + kTwoTone + kPanels + albedos * per_albedo + shown * kMap;
   return surface.map.height.size() * per_texel +
          depth_buffer_bytes(surface.width(), surface.height(), surface.map.boundary);
 }
