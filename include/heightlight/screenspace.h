@@ -199,6 +199,8 @@ struct ScreenSpaceMethod {
   std::string role = {};      ///< of the few that stand at the head of reports: kRoleOfGames, say
   bool finds_totals = false;  ///< for each albedo that it is given
   int directions = 0;         ///< per texel, of those that file 000's figure 5 shows; 0 of others
+  std::function<void()> prepare =
+      {};  ///< makes what a renderer has in its code; empty where nothing is to be made
   std::function<ScreenSpaceView(const DepthBuffer&, const std::vector<SurfaceAlbedo>&)> run = {};
 };
 

@@ -209,7 +209,6 @@ std::string measure_in_words(FuzzyMeasure measure) {
 
 void add_ambient_transfer(std::vector<ScreenSpaceMethod>& methods) {
   const auto add = [&](const AmbientTransferOptions& options, bool shown) {
-    relaxed_points(options.samples);  // which a renderer has in its code
     std::string words = in_digits(static_cast<double>(options.samples)) + " samples" +
                         "; m = " + in_digits(static_cast<double>(options.tests)) +
                         measure_in_words(options.measure) + "; reach " +
@@ -219,9 +218,11 @@ void add_ambient_transfer(std::vector<ScreenSpaceMethod>& methods) {
                        .parameters = words,
                        .shown = shown,
                        .finds_totals = true,
-                       .run = [options](const DepthBuffer& depth, const Albedos& albedos) {
-                         return ambient_transfer(depth, albedos, in_world_units(options, depth));
-                       }});
+                       .prepare = [samples = options.samples] { relaxed_points(samples); },
+                       .run =
+                           [options](const DepthBuffer& depth, const Albedos& albedos) {
+                             return ambient_transfer(depth, albedos, in_world_units(options, depth));
+                           }});
   };
   for (const FuzzyMeasure measure : {FuzzyMeasure::step, FuzzyMeasure::root, FuzzyMeasure::exponential}) {
     for (const int tests : {1, 2}) {
@@ -238,7 +239,6 @@ void add_ambient_transfer(std::vector<ScreenSpaceMethod>& methods) {
 
 void add_ssdo(std::vector<ScreenSpaceMethod>& methods) {
   const auto add = [&](const SsdoOptions& options, bool shown) {
-    relaxed_points(options.samples);
     std::string words = in_digits(static_cast<double>(options.samples)) + " samples" + "; reach " +
                         in_digits(static_cast<double>(options.reach));
     if (options.noise == DirectionNoise::spatial) words += "; 16 turns";
@@ -247,9 +247,11 @@ void add_ssdo(std::vector<ScreenSpaceMethod>& methods) {
                        .parameters = words,
                        .shown = shown,
                        .finds_totals = true,
-                       .run = [options](const DepthBuffer& depth, const Albedos& albedos) {
-                         return ssdo(depth, albedos, in_world_units(options, depth));
-                       }});
+                       .prepare = [samples = options.samples] { relaxed_points(samples); },
+                       .run =
+                           [options](const DepthBuffer& depth, const Albedos& albedos) {
+                             return ssdo(depth, albedos, in_world_units(options, depth));
+                           }});
   };
   for (const double reach : {0.5, 1.0, 2.0, 4.0}) add({16, DirectionNoise::spatial, reach}, reach == 2);
   add({16, DirectionNoise::none, 2}, false);

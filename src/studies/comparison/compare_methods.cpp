@@ -208,6 +208,7 @@ Comparison compare_methods(const ComparedScene& scene, const ComparisonReference
   Progress progress("methods", static_cast<std::int64_t>(contenders.size()), watch);
   for (const Contender& contender : contenders) {
     progress.throw_if_stopped();
+    if (contender.prepare) contender.prepare();
     Estimate estimate;
     Cost cost;
     if (contender.finds_occlusion) {

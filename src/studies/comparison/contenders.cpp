@@ -156,6 +156,7 @@ std::vector<Contender> make_contenders(const ComparedScene& scene) {
                           .role = method.role,
                           .directions = method.directions,
                           .finds_totals = method.finds_totals,
+                          .prepare = method.prepare,
                           .run = [scene, &method](const std::vector<ComparedAlbedo>& albedos) {
                             return run_screen_space(scene, method, albedos);
                           }});
