@@ -187,7 +187,8 @@ void compare(CompareOptions& options) {
 }  // namespace
 
 void add_compare_command(CLI::App& app) {
-  auto* command = app.add_subcommand("compare", "Methods for AO and bounces: time against error");
+  auto* command = app.add_subcommand(
+      "compare", "Closed forms and methods for AO and bounces, beside light transport: error, and time");
   auto options = std::make_shared<CompareOptions>();
   add_map_options(*command, options->map);
   command->add_option("-o,--output", options->folder, "folder for the results")->type_name("DIR")->required();

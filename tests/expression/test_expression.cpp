@@ -114,6 +114,8 @@ TEST_CASE("shaders get as many parentheses as the formula needs", "[forms][expre
   CHECK(glsl("(-A)^2") == "pow(-A, 2.0)");
   CHECK(glsl("A - k*n", {-2}) == "A - -2.0 * n");
   CHECK(glsl("k^2", {-2}) == "pow(-2.0, 2.0)");
+  CHECK(glsl("- -A") == "-(-A)");
+  CHECK(glsl("-k*A", {-2}) == "-(-2.0) * A");
   CHECK(glsl("mix(A, n, rsqrt(4))") == "mix(A, n, inversesqrt(4.0))");
   CHECK(shader_expression(parse_expression("mix(fract(A), n, mod(A + 1, 2))"), ShaderLanguage::hlsl, {}) ==
         "lerp(frac(A), n, ((A + 1.0) - (2.0) * floor((A + 1.0) / (2.0))))");

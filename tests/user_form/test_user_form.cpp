@@ -88,7 +88,11 @@ TEST_CASE("what is no form of a user's is refused", "[forms][user-form]") {
   CHECK_THAT(fault("= A"), Contains("'' is no name"));
   CHECK_THAT(fault("2b = A"), Contains("'2b' is no name"));
   CHECK_THAT(fault("a b = A"), Contains("is no name"));
-  CHECK_THAT(fault("cubic = A"), Contains("is a form of this program"));
+  CHECK_THAT(fault("a__b = A"), Contains("is no name"));
+  for (const char* taken : {"cubic", "share", "bounced", "notes_direct", "notes_refit", "seen_from_sky",
+                            "bounce_3", "mine_refit", "cubic_fitted"}) {
+    CHECK_THAT(fault(std::string(taken) + " = A"), Contains("is a name of this program's own"));
+  }
   CHECK_THAT(fault("mine = A +"), Contains("'mine = A +'") && Contains("column 11"));
   const ScratchFolder folder;
   const auto read = [&](const std::string& text) {

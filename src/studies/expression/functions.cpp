@@ -35,7 +35,8 @@ constexpr FormulaFunction kFunctions[] = {
         "/", [](const double* x) { return x[0] / x[1]; }, "$0 / $1", Binding::product),
     same(
         "^", 2, [](const double* x) { return std::pow(x[0], x[1]); }, "pow($0, $1)"),
-    {"-", nullptr, 1, [](const double* x) { return -x[0]; }, "-$0", "-$0", Binding::sign, Binding::sign},
+    // A sign before a sign would be the decrement of shaders.
+    {"-", nullptr, 1, [](const double* x) { return -x[0]; }, "-$0", "-$0", Binding::sign, Binding::whole},
     same(
         "pow", 2, [](const double* x) { return std::pow(x[0], x[1]); }, "pow($0, $1)"),
     same(

@@ -15,6 +15,7 @@ constexpr std::size_t kLongestName = 40;
 bool is_form_name(const std::string& name) {
   const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
   return !name.empty() && name.size() <= kLongestName && is_letter(name[0]) &&
+         name.find("__") == std::string::npos &&  // which GLSL keeps for itself
          std::all_of(name.begin(), name.end(),
                      [&](char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '_'; });
 }
@@ -25,9 +26,16 @@ std::string trimmed(const std::string& text) {
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-bool is_own_form(const std::string& name) {
-  return std::any_of(closed_forms().begin(), closed_forms().end(),
-                     [&](const ClosedForm& form) { return form.name == name; });
+/// Names under which tables or shaders already hold something of this program's.
+bool is_taken(const std::string& name) {
+  const bool is_form = std::any_of(closed_forms().begin(), closed_forms().end(),
+                                   [&](const ClosedForm& form) { return form.name == name; });
+  const bool is_function =
+      shader_text(ShaderLanguage::glsl, {}).find("heightlight_" + name + '(') != std::string::npos;
+  const bool is_family = name.starts_with("notes_") || name.starts_with("cubic_") ||
+                         name.starts_with("seen_") || name.starts_with("bounce_") ||
+                         name.ends_with("_refit") || name.ends_with("_fitted");
+  return is_form || is_function || is_family;
 }
 
 }  // namespace
@@ -44,7 +52,7 @@ UserForm parse_user_form(const std::string& text) {
         "form", shown,
         printable("'" + form.name + "' is no name: a letter, then letters, digits and _, at most " +
                   std::to_string(kLongestName)));
-  if (is_own_form(form.name)) throw UsageError("form", shown, form.name + " is a form of this program");
+  if (is_taken(form.name)) throw UsageError("form", shown, form.name + " is a name of this program's own");
   form.expression = parse_expression(text, equals + 1);
   return form;
 }

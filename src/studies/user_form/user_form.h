@@ -20,8 +20,8 @@ struct UserForm {
   Expression expression;
 };
 
-/// 'NAME = EXPRESSION'. A name is a letter, then letters, digits and _, 40 at most; none that this program's
-/// forms have. Throws UsageError as parse_expression does, and for a name that is none.
+/// 'NAME = EXPRESSION'. A name is a letter, then letters, digits and single _, 40 at most; none that this
+/// program's forms have. Throws UsageError as parse_expression does, and for a name that is none.
 UserForm parse_user_form(const std::string& text);
 
 /// The forms of the arguments, then those of a file: one a line; blank lines and those that begin with # are
