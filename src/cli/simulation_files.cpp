@@ -9,6 +9,16 @@ namespace {
 
 using Attributes = std::vector<std::pair<std::string, std::string>>;
 
+/// One map, Y, or three, R, G, B.
+void write_channels(StagedFolder& folder, const std::string& name, const std::vector<Map>& maps,
+                    const std::string& meaning) {
+  static constexpr const char* kColour[] = {"R", "G", "B"};
+  std::vector<std::pair<std::string, const Map*>> channels;
+  for (std::size_t i = 0; i < maps.size(); ++i)
+    channels.push_back({maps.size() == 1 ? "Y" : kColour[i], &maps[i]});
+  write_float_image(folder.file(name), channels, Attributes{{"ImageDescription", meaning}});
+}
+
 }  // namespace
 
 std::vector<std::string> simulation_file_names(int bounces) {
@@ -34,20 +44,6 @@ std::vector<std::string> simulation_file_names(int bounces) {
 void write_map(StagedFolder& folder, const std::string& name, const Map& map, const std::string& meaning) {
   write_float_image(folder.file(name), {{"Y", &map}}, Attributes{{"ImageDescription", meaning}});
 }
-
-namespace {
-
-/// One map, Y, or three, R, G, B.
-void write_channels(StagedFolder& folder, const std::string& name, const std::vector<Map>& maps,
-                    const std::string& meaning) {
-  static constexpr const char* kColour[] = {"R", "G", "B"};
-  std::vector<std::pair<std::string, const Map*>> channels;
-  for (std::size_t i = 0; i < maps.size(); ++i)
-    channels.push_back({maps.size() == 1 ? "Y" : kColour[i], &maps[i]});
-  write_float_image(folder.file(name), channels, Attributes{{"ImageDescription", meaning}});
-}
-
-}  // namespace
 
 void write_totals(StagedFolder& folder, const std::vector<Map>& totals) {
   write_channels(folder, "irradiance_total.exr", totals, "E / pi of all bounces, at the albedo given");

@@ -202,6 +202,20 @@ void add_hbao(std::vector<ScreenSpaceMethod>& methods) {
   add(options, true);
 }
 
+/// A method of containment tests: it has relaxed points in its code, and finds totals.
+template <class Options>
+ScreenSpaceMethod point_line(const char* name, const std::string& words,
+                             ScreenSpaceView (*run)(const DepthBuffer&, const Albedos&, const Options&),
+                             const Options& options) {
+  return {.name = name,
+          .parameters = words,
+          .finds_totals = true,
+          .prepare = [samples = options.samples] { relaxed_points(samples); },
+          .run = [run, options](
+                     const DepthBuffer& depth,
+                     const Albedos& albedos) { return run(depth, albedos, in_world_units(options, depth)); }};
+}
+
 std::string measure_in_words(FuzzyMeasure measure) {
   if (measure == FuzzyMeasure::root) return "; root";
   return measure == FuzzyMeasure::exponential ? "; exponential" : "; step";
@@ -214,15 +228,8 @@ void add_ambient_transfer(std::vector<ScreenSpaceMethod>& methods) {
                         measure_in_words(options.measure) + "; reach " +
                         in_digits(static_cast<double>(options.reach));
     if (options.noise == DirectionNoise::spatial) words += "; 16 turns";
-    methods.push_back({.name = "ambient transfer",
-                       .parameters = words,
-                       .shown = shown,
-                       .finds_totals = true,
-                       .prepare = [samples = options.samples] { relaxed_points(samples); },
-                       .run =
-                           [options](const DepthBuffer& depth, const Albedos& albedos) {
-                             return ambient_transfer(depth, albedos, in_world_units(options, depth));
-                           }});
+    methods.push_back(point_line("ambient transfer", words, ambient_transfer, options));
+    methods.back().shown = shown;
   };
   for (const FuzzyMeasure measure : {FuzzyMeasure::step, FuzzyMeasure::root, FuzzyMeasure::exponential}) {
     for (const int tests : {1, 2}) {
@@ -243,15 +250,8 @@ void add_ssdo(std::vector<ScreenSpaceMethod>& methods) {
                         in_digits(static_cast<double>(options.reach));
     if (options.noise == DirectionNoise::spatial) words += "; 16 turns";
     if (options.smooth_end) words += "; smooth end";
-    methods.push_back({.name = "ssdo",
-                       .parameters = words,
-                       .shown = shown,
-                       .finds_totals = true,
-                       .prepare = [samples = options.samples] { relaxed_points(samples); },
-                       .run =
-                           [options](const DepthBuffer& depth, const Albedos& albedos) {
-                             return ssdo(depth, albedos, in_world_units(options, depth));
-                           }});
+    methods.push_back(point_line("ssdo", words, ssdo, options));
+    methods.back().shown = shown;
   };
   for (const double reach : {0.5, 1.0, 2.0, 4.0}) add({16, DirectionNoise::spatial, reach}, reach == 2);
   add({16, DirectionNoise::none, 2}, false);

@@ -9,8 +9,6 @@
 namespace heightlight {
 namespace {
 
-constexpr std::size_t kDeepestStack = 256;
-
 using Kind = ExpressionStep::Kind;
 
 }  // namespace
@@ -23,8 +21,8 @@ bool uses(const Expression& expression, FormInput input) {
 
 double evaluate(const Expression& expression, const FormInputs& inputs, std::span<const double> constants) {
   assert(constants.size() == expression.constants.size());
-  assert(expression.steps.size() < kDeepestStack);
-  std::array<double, kDeepestStack> stack;  // NOLINT(cppcoreguidelines-pro-type-member-init): steps write it
+  assert(expression.steps.size() <= kMostSteps);
+  std::array<double, kMostSteps> stack;  // NOLINT(cppcoreguidelines-pro-type-member-init): steps write it
   std::size_t top = 0;
   for (const ExpressionStep& step : expression.steps) {
     switch (step.kind) {

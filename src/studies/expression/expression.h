@@ -25,6 +25,9 @@ struct ExpressionStep {
   std::size_t index = 0;  ///< of the input, the constant or the function
 };
 
+/// No formula has more steps; what evaluates one needs no deeper stack.
+inline constexpr std::size_t kMostSteps = 200;
+
 /// A formula as a user wrote it. Names are those of GLSL, and of HLSL where it has another; ^ raises to a
 /// power. An own parser, since what is parsed must also become a shader: libraries that evaluate formulas
 /// (muParser) keep their trees to themselves.
@@ -38,7 +41,7 @@ struct Expression {
 /// A, alpha, n, rho (albedo), pi, and functions. A letter, alone or with digits behind it (k, c2), is a free
 /// constant. The formula is what `text` holds from `begin` on. Throws UsageError with the column of what is
 /// wrong: a character or a name that is not known, something missing, a function with too many or too few
-/// arguments, more than 200 steps or a nesting of more than some 50.
+/// arguments, more than kMostSteps steps or a nesting of more than some 50.
 Expression parse_expression(const std::string& text, std::size_t begin = 0);
 
 bool uses(const Expression& expression, FormInput input);

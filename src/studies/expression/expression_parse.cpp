@@ -12,7 +12,6 @@
 namespace heightlight {
 namespace {
 
-constexpr std::size_t kMostSteps = 200;
 constexpr int kDeepest = 100;  // rules within each other: two for a pair of parentheses
 
 using Kind = ExpressionStep::Kind;
