@@ -67,6 +67,7 @@ struct Tally {
 void bake_one(const BakeCommand& command, const BakeInput& input, const InputGuard& guard, bool only_one,
               Tally& tally) {
   if (command.skip_existing && is_baked(command, input)) {
+    remove_left_behind(command.folder);  // of a process that was killed when all was in place
     ++tally.skipped;
     return;
   }

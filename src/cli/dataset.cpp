@@ -146,6 +146,13 @@ std::ptrdiff_t count_stale(const std::vector<DatasetRun>& runs, const fs::path& 
                        });
 }
 
+/// A process that was killed when a result was in place has left what no result of this job may come across.
+void tidy(const std::vector<DatasetRun>& runs, const fs::path& folder) {
+  for (const fs::path& place : {folder, runs_folder(folder), shapes_folder(folder)})
+    remove_left_behind(place);
+  for (const DatasetRun& run : runs) remove_left_behind(run.simulate.folder);
+}
+
 void make_dataset(DatasetOptions& options) {
   apply_run_options(options.run);
   const Manifest manifest = read_manifest(options.manifest);
@@ -154,6 +161,7 @@ void make_dataset(DatasetOptions& options) {
   make_folder(options.folder);
   const FolderLock lock(options.folder);
   std::vector<DatasetRun> runs = list_runs(manifest, options.folder, options.run);
+  tidy(runs, options.folder);
   const InputGuard guard(inputs);
   for (DatasetRun& run : runs) run.simulate.inputs = guard;
   Plots plots;

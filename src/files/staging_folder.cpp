@@ -22,15 +22,29 @@ namespace fs = std::filesystem;
 constexpr const char* kPrefix = ".heightlight-";
 constexpr const char* kMarker = ".heightlight-staging";
 
+constexpr const char* kResults = "results";
+
+/// Sticky while it is empty: a name alone would not tell it from a folder of somebody's.
+constexpr mode_t kStagingMode = 0777 | S_ISVTX;
+
+/// What the hidden folder holds first, its mark last.
+void remove_staging(const fs::path& folder) {
+  std::error_code ignored;
+  for (fs::directory_iterator entry(folder, ignored), end; entry != end; entry.increment(ignored)) {
+    if (entry->path().filename() != kMarker) fs::remove_all(entry->path(), ignored);
+  }
+  fs::remove(folder / kMarker, ignored);
+  rmdir(folder.c_str());
+}
+
 /// Those of this process. Never destroyed: the end of the process needs them.
 struct Staged {
   std::recursive_mutex mutex;            ///< recursive: errors found while it is held ask for final paths
-  std::map<fs::path, fs::path> folders;  ///< and where what they hold is to stand
+  std::map<fs::path, fs::path> folders;  ///< of results, and where what they hold is to stand
 };
 
 void remove_all_staged(const Staged& staged) {
-  std::error_code ignored;
-  for (const auto& [folder, destination] : staged.folders) fs::remove_all(folder, ignored);
+  for (const auto& [results, destination] : staged.folders) remove_staging(results.parent_path());
 }
 
 Staged& staged_here() {
@@ -63,22 +77,12 @@ bool write_marker(int folder) {
   return true;
 }
 
-bool has_marker(int folder) {
+/// A staging folder is marked from its first file to its last. Empty, it is sticky.
+bool is_marked(int folder, const fs::path& path) {
   struct stat status {};
-  return fstatat(folder, kMarker, &status, AT_SYMLINK_NOFOLLOW) == 0 && S_ISREG(status.st_mode);
-}
-
-/// Where locks are unknown, as on some network file systems, nothing is taken for left behind.
-void remove_left_behind(const fs::path& parent) {
-  std::error_code ignored;
-  for (fs::directory_iterator entry(parent, ignored), end; entry != end; entry.increment(ignored)) {
-    if (!is_staging_name(entry->path().filename().string())) continue;
-    const int descriptor = open_folder(entry->path());
-    if (descriptor < 0) continue;
-    if (has_marker(descriptor) && flock(descriptor, LOCK_EX | LOCK_NB) == 0)
-      fs::remove_all(entry->path(), ignored);
-    close(descriptor);
-  }
+  if (fstatat(folder, kMarker, &status, AT_SYMLINK_NOFOLLOW) == 0) return S_ISREG(status.st_mode);
+  std::error_code failure;
+  return fstat(folder, &status) == 0 && (status.st_mode & S_ISVTX) != 0 && fs::is_empty(path, failure);
 }
 
 /// Takes the lock of a folder just made; false where another process removed it in between.
@@ -101,7 +105,7 @@ StagingFolder::StagingFolder(const fs::path& parent, const fs::path& folder, con
   for (int i = 0; i < kMostTries; ++i) {
     const fs::path candidate = parent / (stem + std::to_string(i));
     const std::lock_guard lock(staged.mutex);
-    if (mkdir(candidate.c_str(), 0777) != 0) {
+    if (mkdir(candidate.c_str(), kStagingMode) != 0) {
       fault = errno;
       if (fault == EEXIST) continue;
       break;
@@ -109,41 +113,46 @@ StagingFolder::StagingFolder(const fs::path& parent, const fs::path& folder, con
     descriptor_ = open_folder(candidate);
     fault = descriptor_ < 0 ? errno : 0;
     if (fault == 0 && lock_new_folder(descriptor_, candidate)) {
-      if (write_marker(descriptor_)) {
+      const fs::path results = candidate / kResults;
+      if (write_marker(descriptor_) && mkdir(results.c_str(), 0777) == 0) {
         path_ = candidate;
-        staged.folders.emplace(path_, folder);
+        results_ = results;
+        staged.folders.emplace(results_, folder);
         return;
       }
       fault = errno;
+      unlinkat(descriptor_, kMarker, 0);
     }
     if (descriptor_ >= 0) close(descriptor_);
     descriptor_ = -1;
-    if (fault == 0) continue;  // another process took it for left behind
     rmdir(candidate.c_str());
-    break;
+    if (fault != 0) break;  // else another process took it for left behind
   }
   throw output_error(result, fault);
 }
 
 StagingFolder::~StagingFolder() {
-  if (path_.empty()) return;
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
+  remove_staging(path_);
   const std::lock_guard lock(staged_here().mutex);
-  forget();
-}
-
-void StagingFolder::forget() {
-  staged_here().folders.erase(path_);
-  path_.clear();
+  staged_here().folders.erase(results_);
   close(descriptor_);
 }
 
 bool StagingFolder::become(const fs::path& destination) {
-  if (rename(path_.c_str(), destination.c_str()) != 0) return false;
-  unlinkat(descriptor_, kMarker, 0);
-  forget();
-  return true;
+  return rename(results_.c_str(), destination.c_str()) == 0;
+}
+
+void remove_left_behind(const fs::path& parent) {
+  std::error_code ignored;
+  for (fs::directory_iterator entry(parent, ignored), end; entry != end; entry.increment(ignored)) {
+    if (!is_staging_name(entry->path().filename().string())) continue;
+    const int descriptor = open_folder(entry->path());
+    if (descriptor < 0) continue;
+    // The lock first: a process that has just begun may not have marked its folder yet.
+    if (flock(descriptor, LOCK_EX | LOCK_NB) == 0 && is_marked(descriptor, entry->path()))
+      remove_staging(entry->path());
+    close(descriptor);
+  }
 }
 
 fs::path final_path(const fs::path& path) {

@@ -5,6 +5,7 @@
 
 #include "files/staged_output.h"
 #include "heightlight/error.h"
+#include "kill_at_calls.h"
 #include "remedy.h"
 #include "scratch_folder.h"
 
@@ -161,6 +162,52 @@ TEST_CASE("What a killed process left is tidied up", "[files]") {
   fs::rename(scratch / "kept", scratch / ".heightlight-99999999-0");
   { StagedFolder out(scratch / "out", {}, {}); }
   CHECK(scratch.entry_count() == 0);
+}
+
+namespace {
+
+void stage_all(const ScratchFolder& scratch) {
+  StagedFile map(scratch / "map.exr");
+  write_text(map.path(), "new");
+  map.commit();
+  for (const char* folder : {"there", "absent"}) {
+    StagedFolder out(scratch / folder, {}, {});
+    write_text(out.file("one.txt"), "new");
+    write_text(out.file("two.txt"), "new");
+    out.commit();
+  }
+}
+
+/// Whole files, of before or of now, and nothing else; a folder that was absent has all or is not there.
+void check_whole(const ScratchFolder& scratch) {
+  CHECK_THAT(read_text(scratch / "map.exr"), Catch::Equals("old") || Catch::Equals("new"));
+  for (const char* name : {"one.txt", "two.txt"}) {
+    CHECK_THAT(read_text(scratch / "there" / name), Catch::Equals("old") || Catch::Equals("new"));
+    if (fs::exists(scratch / "absent")) CHECK(read_text(scratch / "absent" / name) == "new");
+  }
+  CHECK(scratch.entry_count() == (fs::exists(scratch / "absent") ? 7U : 4U));
+}
+
+}  // namespace
+
+TEST_CASE("Killed before any call, staging leaves whole results, and what the next process removes",
+          "[files]") {
+  TracedEnd end = TracedEnd::killed;
+  int call = 0;
+  for (; end == TracedEnd::killed; ++call) {
+    const ScratchFolder scratch;
+    fs::create_directory(scratch / "there");
+    write_text(scratch / "map.exr", "old");
+    write_text(scratch / "there/one.txt", "old");
+    write_text(scratch / "there/two.txt", "old");
+    end = kill_at_call(call, [&] { stage_all(scratch); });
+    remove_left_behind(scratch.path());
+    remove_left_behind(scratch / "there");
+    INFO("call " << call);
+    check_whole(scratch);
+  }
+  if (end == TracedEnd::untraceable) WARN("processes cannot be traced here: NOT TESTED");
+  if (end == TracedEnd::finished) CHECK(call > 30);
 }
 
 TEST_CASE("Where staging cannot be opened, one try is enough and leaves nothing", "[files]") {
