@@ -8,6 +8,7 @@
 
 #include "heightlight/curves.h"
 #include "heightlight/heightmap.h"
+#include "heightlight/sky_light.h"
 #include "heightlight/transport.h"
 
 // Heightmaps from files, and curves to and from tables: the library heightlight::files, on top of
@@ -90,6 +91,11 @@ void check_load_options(const LoadOptions& options);
 /// have.
 LoadedHeightmap load_heightmap(const std::filesystem::path& path, const LoadOptions& options,
                                std::uint64_t memory_limit);
+
+/// Reads a sky (sky_light.h) from an image of floating-point samples: EXR, HDR, or TIFF; grey, or red, green
+/// and blue. Throws Error naming the file and what is wrong: all that load_heightmap finds wrong with an
+/// image, samples of 8 or 16 bits, which are no radiance, other channels, or what check_sky_light refuses.
+SkyLight load_sky_light(const std::filesystem::path& path, std::uint64_t memory);
 
 /// Writes form factors as a sparse matrix, which scipy.sparse.load_npz reads: compressed rows (`indptr`,
 /// `indices`, `data`), row i for what texel i = row × width + column sees of each texel, and beside it

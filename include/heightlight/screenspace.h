@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "heightlight/sky_light.h"
 #include "heightlight/surface.h"
 
 // Screen-space methods: what games run, on exactly the surface that the reference uses, seen from straight
@@ -63,8 +64,7 @@ struct ScreenSpaceView {
   Map sky_view_factor;         ///< its word for A, [0, 1]: what a renderer would multiply irradiance by
   Map ambient_occlusion;       ///< its word for α; 0 × 0 where it has none
   Image<Vector3> bent_normal;  ///< unit, cosine weighted, world axes; 0 × 0 where there is none
-  Map half_sky;  ///< E/π under a sky that shines only from y > 0 (the image's top); 0 × 0 where there is none
-  Map seen;      ///< n, the mean sky view factor of what a texel sees, [0, 1]; 0 × 0 where there is none
+  Map seen;  ///< n, the mean sky view factor of what a texel sees, [0, 1]; 0 × 0 where there is none
   std::vector<Map> totals;       ///< E/π with what the method knows of bounces, per albedo; may be empty
   double samples_per_texel = 0;  ///< depths that were looked up
 };
@@ -180,12 +180,18 @@ struct SsdoOptions {
   bool smooth_end = false;
 };
 
-/// Direct irradiance under a uniform sky and under half of one, and per albedo the direct one with one
-/// bounce. Distances between sender and receiver are taken to be at least a texel: the paper clamps to "1",
-/// whose unit it does not say. With a smooth end there is no half of a sky. Throws UsageError for options
-/// outside their range.
+/// Direct irradiance under an even sky, and per albedo the direct one with one bounce. Distances between
+/// sender and receiver are taken to be at least a texel: the paper clamps to "1", whose unit it does not say.
+/// Throws UsageError for options outside their range.
 ScreenSpaceView ssdo(const DepthBuffer& depth, const std::vector<SurfaceAlbedo>& albedos,
                      const SsdoOptions& options);
+
+/// Of the sphere, what each of its directions stands for, sr: what the sky should be averaged over.
+double ssdo_solid_angle(const SsdoOptions& options);
+
+/// Direct irradiance E/π under any sky, red, green and blue, the radiance looked up along each open direction
+/// (file 001, eq. 1); NaN where the sample is missing. Throws as ssdo does.
+Image<Vector3> ssdo_under_sky(const DepthBuffer& depth, const SkyGrid& sky, const SsdoOptions& options);
 
 /// The role (below) of GTAO at a usual preset.
 inline constexpr const char* kRoleOfGames = "GTAO as games run it";
@@ -202,6 +208,8 @@ struct ScreenSpaceMethod {
   std::function<void()> prepare =
       {};  ///< makes what a renderer has in its code; empty where nothing is to be made
   std::function<ScreenSpaceView(const DepthBuffer&, const std::vector<SurfaceAlbedo>&)> run = {};
+  double sky_solid_angle = 0;  ///< sr, that it wants a sky averaged over; 0: it takes A to tell all
+  std::function<Image<Vector3>(const DepthBuffer&, const SkyGrid&)> run_under_sky = {};  ///< then empty
 };
 
 /// All that are compared. Reaches are in units of the map's relief.

@@ -34,6 +34,7 @@ struct CompareOptions {
   std::filesystem::path folder;
   std::string albedo = "0.2,0.5,0.8";
   UserFormOptions forms;
+  std::filesystem::path sky;
   int azimuths = 128;
 };
 
@@ -62,13 +63,13 @@ std::vector<ComparedAlbedo> compared_albedos(const CompareOptions& options, cons
 std::uint64_t bytes_held(const Surface& surface, std::size_t albedos, std::size_t shown) {
   constexpr std::uint64_t kMap = sizeof(Map::value_type);
   constexpr std::uint64_t kSurface = kMap + sizeof(Vector3);
-  constexpr std::uint64_t kReference = 5 * kMap + sizeof(Vector3);
-  constexpr std::uint64_t kEstimate = 4 * kMap + sizeof(Vector3);
-  constexpr std::uint64_t kTwoTone = 3 * kMap + 3 * kMap;  // three channels of differences, and their sizes
-  constexpr std::uint64_t kPanels = sizeof(std::size_t);   // texels sorted by AO
+  constexpr std::uint64_t kReference = 4 * kMap + 2 * sizeof(Vector3);
+  constexpr std::uint64_t kEstimate = 3 * kMap + sizeof(Vector3);
+  constexpr std::uint64_t kSky = sizeof(Vector3) + 3 * kMap + 3 * kMap;  // light, differences, their sizes
+  constexpr std::uint64_t kPanels = sizeof(std::size_t);                 // texels sorted by AO
   const std::uint64_t per_albedo = 2 * kMap + kMap + sizeof(TexelVector::value_type);
   const std::uint64_t per_texel =
-      kSurface + kReference + kEstimate + kTwoTone + kPanels + albedos * per_albedo + shown * kMap;
+      kSurface + kReference + kEstimate + kSky + kPanels + albedos * per_albedo + shown * kMap;
   return surface.map.height.size() * per_texel +
          depth_buffer_bytes(surface.width(), surface.height(), surface.map.boundary);
 }
@@ -85,13 +86,21 @@ std::uint64_t memory_for_methods(const CompareOptions& options, const Surface& s
 }
 
 std::vector<std::string> result_names() {
-  std::vector<std::string> names{"compare.csv",      "compare.json", "report.md",      "forms.svg",
-                                 "forms.png",        "pareto.svg",   "pareto.png",     "errors.png",
-                                 "total_errors.png", "showtime.png", "directions.png", "forms.glsl",
-                                 "forms.hlsl"};
+  std::vector<std::string> names{"compare.csv",      "compare.json", "report.md",     "forms.svg",
+                                 "forms.png",        "pareto.svg",   "pareto.png",    "errors.png",
+                                 "total_errors.png", "showtime.png", "sky_light.png", "directions.png",
+                                 "forms.glsl",       "forms.hlsl"};
   const std::vector<std::string> shown = shown_methods();
   for (std::size_t i = 0; i < shown.size(); ++i) names.push_back(error_picture_name(i + 1, shown[i]));
   return names;
+}
+
+/// The user's sky, or that of two tones.
+ComparedSky read_compared_sky(const CompareOptions& options) {
+  if (options.sky.empty()) return {};
+  return {.quantity = "sky_irradiance",
+          .label = "the sky " + printable(options.sky.filename()),
+          .light = normalised(load_sky_light(options.sky, options.run.memory))};
 }
 
 /// The forms of the list as published, then the user's as fitted to the map.
@@ -123,6 +132,7 @@ void compare_on(const CompareOptions& options, const Surface& surface, LoadedHei
   const DepthBuffer depth = make_depth_buffer(surface);
   const Cost depth_cost = watch.elapsed();
   const ComparisonReference reference = build_reference(surface, {.azimuths = options.azimuths,
+                                                                  .sky = read_compared_sky(options),
                                                                   .albedos = albedos,
                                                                   .memory = memory,
                                                                   .seed = options.run.seed,
@@ -175,8 +185,8 @@ void compare(CompareOptions& options) {
   apply_run_options(options.run);
   check_azimuths(options.azimuths);
   const std::vector<UserForm> own = read_user_forms(options.forms.forms, options.forms.file);
-  StagedFolder folder(options.folder, {options.map.path, options.albedo, options.forms.file}, result_names(),
-                      {.file = "compare.json", .prefix = "error_"});
+  StagedFolder folder(options.folder, {options.map.path, options.albedo, options.forms.file, options.sky},
+                      result_names(), {.file = "compare.json", .prefix = "error_"});
   Plots plots;
   LoadedHeightmap loaded = load_heightmap(options.map.path, options.map.load, options.run.memory);
   const Surface surface = build_surface(std::move(loaded.map));
@@ -197,6 +207,11 @@ void add_compare_command(CLI::App& app) {
           "--albedo", options->albedo,
           "of the totals: one to eight numbers, a colour, or an image of the map's size (0.2,0.5,0.8)")
       ->type_name("R,R…|#RRGGBB|FILE");
+  command
+      ->add_option("--sky", options->sky,
+                   "image of radiance, latitude by longitude, whose direct light is compared (one of two "
+                   "tones); its middle looks to the map's top")
+      ->type_name("FILE.hdr|exr");
   command->add_option("--azimuths", options->azimuths,
                       "of the reference, an even number (128); its error stands in the report");
   add_user_form_options(*command, options->forms);
@@ -205,8 +220,9 @@ void add_compare_command(CLI::App& app) {
       "Writes report.md, which begins with the answer: what each closed form errs by on exact AO and on "
       "GTAO's;\n"
       "forms, pareto (.svg, .png), showtime.png (how it looks), errors.png, total_errors.png, "
-      "directions.png,\n"
-      "error_NN_METHOD.png; compare.csv, compare.json; forms.glsl and .hlsl where --form gives one.\n"
+      "sky_light.png,\n"
+      "directions.png, error_NN_METHOD.png; compare.csv, compare.json; forms.glsl and .hlsl where --form "
+      "gives one.\n"
       "Examples:\n"
       "  heightlight compare brick.png -o brick\n"
       "  heightlight compare dem.tif -o dem --texel 50 --boundary open --albedo 0.3\n"

@@ -55,6 +55,7 @@ std::string comparison_json(const std::filesystem::path& map, const LoadedHeight
   json["warnings"] = describe_warnings(loaded.warnings);
   json["answer"] = describe_answer(input.answer);
   json["own_forms"] = describe_own_forms(input.own_forms);
+  json["sky"] = {{"quantity", reference.sky.quantity}, {"light", reference.sky.label}};
   json["reference"] = {{"azimuths", reference.azimuths},
                        {"checked",
                         {{"receivers", reference.checked},

@@ -52,6 +52,11 @@ void draw_comparison(StagedFolder& folder, const ReportInput& input, Plots& plot
         paths[0], comparison.rendered,
         {.title = input.map_name + " under an even sky: albedo × E/π, all bounces", .columns = columns});
   });
+  plots.draw(folder, {"sky_light.png"}, [&](const auto& paths) {
+    plot_rendered(paths[0], comparison.sky_light,
+                  {.title = input.map_name + ": direct light of " + input.reference.sky.label,
+                   .columns = (comparison.sky_light.size() + 1) / 2});
+  });
   plots.draw(folder, {"directions.png"}, [&](const auto& paths) {
     plot_rendered(
         paths[0], comparison.directions,

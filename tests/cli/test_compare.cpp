@@ -10,6 +10,7 @@
 #include "command.h"
 #include "files/image_file.h"
 #include "heightlight/image.h"
+#include "write_samples.h"
 
 namespace heightlight {
 namespace {
@@ -36,7 +37,7 @@ TEST_CASE("compare writes its table, report, plots and pictures, and errors that
           0);
   for (const char* name :
        {"compare.csv", "compare.json", "report.md", "forms.svg", "forms.png", "pareto.svg", "pareto.png",
-        "errors.png", "total_errors.png", "showtime.png", "directions.png"}) {
+        "errors.png", "total_errors.png", "showtime.png", "sky_light.png", "directions.png"}) {
     CHECK(std::filesystem::file_size(folder / (std::string("one/") + name)) > 500);
   }
   const auto pictures = std::filesystem::directory_iterator(folder / "one");
@@ -83,6 +84,36 @@ TEST_CASE("compare writes its table, report, plots and pictures, and errors that
   CHECK(groups["exact AO"] == 6);
   for (const char* role : {"GTAO as games run it", "GTAO converged", "horizon walk"})
     CHECK(groups[role] == 5);
+}
+
+TEST_CASE("compare judges direct light under a user's sky", "[cli][compare][slow]") {
+  const ScratchFolder folder;
+  REQUIRE(run_command("synth brick -o map.png --size 24", folder).exit_code == 0);
+  // Light from +x alone, in one of four columns.
+  write_samples<float>(folder / "east.exr", 4, 2, {"Y"}, {0, 0, 0, 5, 0, 0, 0, 5});
+  const CommandResult run =
+      run_command("compare map.png -o out --sky east.exr --albedo 0.5 --azimuths 32 --quiet", folder);
+  INFO(run.error);
+  REQUIRE(run.exit_code == 0);
+  CHECK(nlohmann::json::parse(read_text(folder / "out/compare.json"))["sky"]["quantity"] == "sky_irradiance");
+  CHECK_THAT(read_text(folder / "out/report.md"), Contains("Direct light of the sky east.exr"));
+  std::map<std::string, double> least;
+  for (const std::vector<std::string>& row : read_table(folder / "out/compare.csv")) {
+    if (row[2] != "sky_irradiance") continue;
+    const double rmse = std::stod(row[6]);
+    const auto known = least.find(row[0]);
+    least[row[0]] = known == least.end() ? rmse : std::min(rmse, known->second);
+  }
+  CHECK(least.count("ssdo") == 1);
+  CHECK(least.count("gtao") == 1);
+  CHECK(least["exact AO"] > 0.001);
+  CHECK(least["exact AO"] < 0.4);
+  const CommandResult bad = run_command("compare map.png -o out --sky map.png --quiet", folder);
+  CHECK(bad.exit_code == 1);
+  CHECK_THAT(bad.error, Contains("map.png: a sky wants radiance"));
+  const CommandResult absent = run_command("compare map.png -o out --sky absent.exr --quiet", folder);
+  CHECK(absent.exit_code == 1);
+  CHECK_THAT(absent.error, Contains("absent.exr: no such file"));
 }
 
 TEST_CASE("compare fits and judges a user's own form", "[cli][compare][user-form][slow]") {

@@ -64,6 +64,8 @@ TEST_CASE("albedos, curves and manifests are not replaced by results", "[cli]") 
   refuses(folder, "simulate map.png -o . --albedo irradiance_total.png", "irradiance_total.png");
   copy(folder, "map.png", "errors.png");
   refuses(folder, "compare map.png -o . --albedo errors.png", "errors.png");
+  copy(folder, "map.png", "sky_light.png");
+  refuses(folder, "compare map.png -o . --sky sky_light.png", "sky_light.png");
   write_text(folder / "models.csv", "not read");
   refuses(folder, "fit models.csv -o .", "models.csv");
   write_text(folder / "dataset.json", "{\"maps\": [{\"file\": \"map.png\"}]}");

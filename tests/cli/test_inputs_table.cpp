@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-enum class Kind { map, folder, curves, manifest };
+enum class Kind { map, folder, sky, curves, manifest };
 
 /// A command that reads an input: its arguments, IN and OUT among them, and a file that it writes into OUT.
 struct Use {
@@ -52,6 +52,10 @@ const std::vector<Use>& uses() {
          Kind::map,
          {"compare", "good.png", "-o", "OUT", "--azimuths", "4", "--albedo", "IN"},
          "pareto.svg"},
+        {"compare's sky",
+         Kind::sky,
+         {"compare", "good.png", "-o", "OUT", "--azimuths", "4", "--sky", "IN"},
+         "sky_light.png"},
         {"fit's curves", Kind::curves, {"fit", "IN", "-o", "OUT", "--bootstrap", "20"}, "models.csv"},
         {"dataset's manifest", Kind::manifest, {"dataset", "IN", "-o", "OUT"}, "dataset.json"}};
     for (Use& use : made) {
@@ -73,6 +77,8 @@ class Inputs {
     REQUIRE(run_command("simulate good.png -o run --rays 16 --bins 20 --quiet", folder).exit_code == 0);
     write_text(folder / "manifest.json",
                R"({"maps": [{"shape": "fbm", "size": 8}], "options": [{"rays": 4}]})");
+    const std::string texels("\x80\x80\x80\x81\x80\x80\x80\x81", 8);  // (1, 1, 1), twice
+    write_text(folder / "sky.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n" + texels);
     fs::create_directory(folder / "rocks");
     fs::copy_file(folder / "good.png", folder / "rocks/rock.png");
   }
@@ -83,6 +89,8 @@ class Inputs {
         return folder / "good.png";
       case Kind::folder:
         return folder / "rocks";
+      case Kind::sky:
+        return folder / "sky.hdr";
       case Kind::curves:
         return folder / "run/curves.csv";
       case Kind::manifest:

@@ -24,7 +24,7 @@ std::vector<TangentPoint> some_points(float reach) {
   for (const Eigen::Vector3d& xi : relaxed_points(12)) {
     const Eigen::Vector3d way = reach * (xi - Eigen::Vector3d(0.5, 0.5, 0.05));
     points.push_back(
-        {static_cast<float>(way.x()), static_cast<float>(way.y()), static_cast<float>(way.z()), 0.1F});
+        {static_cast<float>(way.x()), static_cast<float>(way.y()), static_cast<float>(way.z()), 0.1F, 0.02F});
   }
   return points;
 }
@@ -58,10 +58,12 @@ TEST_CASE("the point tests' lanes and their scalar twin agree on every instructi
   PointPass pass{depth, points, tests, 1e-5F};
   set_turns(DirectionNoise::spatial, 0, pass);
   pass.albedos = {&albedo};
+  const SkyGrid sky = make_sky_grid(two_tone_sky(), 0.1);
+  pass.sky = &sky;
   const BouncePass bounce{pass, sender, 0.01F, 0.02F};
   const auto no_sums = [width = width] {  // Clang 14 captures no bindings
     const std::vector<float> none(static_cast<std::size_t>(width));
-    return PointSums{none, none, {none}};
+    return PointSums{none, {none, none, none}, {none}};
   };
   for (const std::int64_t target : instruction_sets()) {
     const InstructionSet use(target);
@@ -72,7 +74,8 @@ TEST_CASE("the point tests' lanes and their scalar twin agree on every instructi
       test_points_scalar(pass, row, twin);
       test_points(pass, row, lanes);
       differences += count_differences(twin.open, lanes.open, surface, row);
-      differences += count_differences(twin.half, lanes.half, surface, row);
+      for (std::size_t c = 0; c < 3; ++c)
+        differences += count_differences(twin.sky[c], lanes.sky[c], surface, row);
       differences += count_differences(twin.albedo[0], lanes.albedo[0], surface, row);
       bounce_points_scalar(bounce, row, twin.open);
       bounce_points(bounce, row, lanes.open);
@@ -166,14 +169,36 @@ TEST_CASE("many tests on the way find what one misses: a thin wall", "[screenspa
   CHECK(mean(32) < mean(2));
 }
 
+TEST_CASE("under an even sky SSDO finds what it takes for A, with a smooth end too", "[screenspace]") {
+  const DepthBuffer depth = make_depth_buffer(rough_surface(40, 37, Boundary::tile));
+  const SsdoOptions options{.samples = 16, .reach = 0.3, .smooth_end = GENERATE(false, true)};
+  const SkyGrid even = make_sky_grid({Image<Vector3>(2, 1, Vector3{2, 1, 0})}, ssdo_solid_angle(options));
+  const Image<Vector3> light = ssdo_under_sky(depth, even, options);
+  const Map open = ssdo(depth, {}, options).sky_view_factor;
+  for (std::size_t i = 0; i < light.size(); ++i) {
+    REQUIRE(std::isnan(light.values[i].x) == std::isnan(open.values[i]));
+    if (std::isnan(open.values[i])) continue;
+    REQUIRE(light.values[i].x == Approx(2 * open.values[i]).margin(1e-5));  // rounding
+    REQUIRE(light.values[i].y == Approx(open.values[i]).margin(1e-5));
+    REQUIRE(light.values[i].z == 0);
+  }
+}
+
 TEST_CASE("SSDO sees which half of the sky a wall hides", "[screenspace]") {
   // A wall that runs along x: texels below it in the image look up (+y) at it.
   const Surface surface =
       build_surface(make_map(48, 48, Boundary::open, [](int row, int) { return row < 20 ? 0.4 : 0.0; }));
-  const ScreenSpaceView view = ssdo(make_depth_buffer(surface), {{.constant = 0.5}},
-                                    {.samples = 64, .noise = DirectionNoise::spatial, .reach = 0.5});
+  const SsdoOptions options{.samples = 64, .noise = DirectionNoise::spatial, .reach = 0.5};
+  const DepthBuffer depth = make_depth_buffer(surface);
+  const ScreenSpaceView view = ssdo(depth, {{.constant = 0.5}}, options);
+  // Red from y > 0, green from the rest.
+  SkyLight halves{Image<Vector3>(4, 2, {0, 1, 0})};
+  for (int row = 0; row < 2; ++row) halves.radiance(row, 1) = halves.radiance(row, 2) = {1, 0, 0};
+  const Image<Vector3> light =
+      ssdo_under_sky(depth, make_sky_grid(halves, ssdo_solid_angle(options)), options);
   const float whole = view.sky_view_factor(26, 24);
-  const float upper = view.half_sky(26, 24);
+  const float upper = light(26, 24).x;
+  CHECK(light(26, 24).x + light(26, 24).y == Approx(whole).margin(1e-5));
   CHECK(whole < 0.9F);
   CHECK(upper < 0.4F);
   CHECK(whole - upper > 0.45F);

@@ -252,6 +252,10 @@ void add_ssdo(std::vector<ScreenSpaceMethod>& methods) {
     if (options.smooth_end) words += "; smooth end";
     methods.push_back(point_line("ssdo", words, ssdo, options));
     methods.back().shown = shown;
+    methods.back().sky_solid_angle = ssdo_solid_angle(options);
+    methods.back().run_under_sky = [options](const DepthBuffer& depth, const SkyGrid& sky) {
+      return ssdo_under_sky(depth, sky, in_world_units(options, depth));
+    };
   };
   for (const double reach : {0.5, 1.0, 2.0, 4.0}) add({16, DirectionNoise::spatial, reach}, reach == 2);
   add({16, DirectionNoise::none, 2}, false);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "heightlight/screenspace.h"
+#include "heightlight/sky_light.h"
 #include "screenspace/slice_samples.h"
 
 // Containment tests (files 001 and 002) for one row of receivers: points of the tangent hemisphere are looked
@@ -22,6 +23,7 @@ constexpr std::size_t kMostAlbedos = 3;
 struct TangentPoint {
   float x = 0, y = 0, z = 0;
   float weight = 1;
+  float kept = 0;  ///< what it counts beside that, open or not
 };
 
 /// A point counts as below the surface only by more than this share of the reach: a plane does not hide
@@ -40,12 +42,14 @@ struct PointPass {
   /// Of the surface, one per albedo that varies (kMostAlbedos of them), all of the map's size: read at the
   /// first place that lies below it.
   std::vector<const Map*> albedos{};
+  const SkyGrid* sky = nullptr;  ///< where its light is asked for
 };
 
 /// Sums over the points, per receiver in a row of the map.
 struct PointSums {
   std::vector<float> open;  ///< Σ weight of what is open
-  std::vector<float> half;  ///< the same where the direction has y > 0; empty where not asked for
+  /// Red, green and blue: Σ radiance × (weight of what is open, and what is kept). Empty without a sky.
+  std::array<std::vector<float>, 3> sky;
   std::vector<std::vector<float>> albedo;  ///< Σ weight × albedo of what is hidden, per albedo
 };
 

@@ -97,6 +97,22 @@ float hidden_share(const PointPass& pass, const Receiver& at, const Vec& offset)
   return 0;
 }
 
+/// Of the sky, in that direction.
+std::size_t cell_of(const SkyGrid& sky, const Vec& way) {
+  const float size = std::fabs(way.x()) + std::fabs(way.y()) + std::fabs(way.z());
+  const float x = way.x() / std::max(size, 1e-30F);
+  const float y = way.y() / std::max(size, 1e-30F);
+  const bool below = way.z() < 0;
+  const float across = below ? std::copysign(1 - std::fabs(y), x) : x;
+  const float down = below ? std::copysign(1 - std::fabs(x), y) : y;
+  const auto place = [&](float share) {
+    const float half = 0.5F * static_cast<float>(sky.side);
+    return std::clamp(static_cast<int>((share + 1) * half), 0, sky.side - 1);
+  };
+  return static_cast<std::size_t>(place(down)) * static_cast<std::size_t>(sky.side) +
+         static_cast<std::size_t>(place(across));
+}
+
 }  // namespace
 
 void set_turns(DirectionNoise noise, int frame, PointPass& pass) {
@@ -118,9 +134,15 @@ void test_points_scalar(const PointPass& pass, int row, PointSums& sums) {
     for (const TangentPoint& point : pass.points) {
       const Vec offset = offset_of(at, point);
       const float hidden = hidden_share(pass, at, offset);
+      if (pass.sky) {
+        const std::size_t cell = cell_of(*pass.sky, offset);
+        const float counted = (hidden == 0 ? point.weight : 0) + point.kept;
+        sums.sky[0][j] += counted * pass.sky->red[cell];
+        sums.sky[1][j] += counted * pass.sky->green[cell];
+        sums.sky[2][j] += counted * pass.sky->blue[cell];
+      }
       if (hidden == 0) {
         sums.open[j] += point.weight;
-        if (!sums.half.empty() && offset.y() > 0) sums.half[j] += point.weight;
         continue;
       }
       const Vec part = hidden * offset;

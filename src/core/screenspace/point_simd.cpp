@@ -116,6 +116,20 @@ class PointLanes {
     return hn::Add(hn::Mul(row, hn::Set(kI, depth_.width)), column);
   }
 
+  /// Of the sky, in that direction.
+  static VI cell_of(const SkyGrid& sky, const Vector& way) {
+    const VF one = hn::Set(kF, 1.0F);
+    const VF size = hn::Add(hn::Add(hn::Abs(way.x), hn::Abs(way.y)), hn::Abs(way.z));
+    const VF safe = hn::Max(size, hn::Set(kF, 1e-30F));
+    const VF x = hn::Div(way.x, safe);
+    const VF y = hn::Div(way.y, safe);
+    const auto below = hn::Lt(way.z, hn::Zero(kF));
+    const VF across = hn::IfThenElse(below, hn::CopySign(hn::Sub(one, hn::Abs(y)), x), x);
+    const VF down = hn::IfThenElse(below, hn::CopySign(hn::Sub(one, hn::Abs(x)), y), y);
+    const VI side = hn::Set(kI, sky.side);
+    return hn::Add(hn::Mul(cell_along(sky, down), side), cell_along(sky, across));
+  }
+
   /// As the scalar hidden_share: 0 where no place is below the surface.
   VF hidden_share(const Framed& at, const Vector& offset) const {
     VF hidden = hn::Zero(kF);
@@ -130,6 +144,12 @@ class PointLanes {
   }
 
  private:
+  static VI cell_along(const SkyGrid& sky, VF share) {
+    const VF half = hn::Set(kF, 0.5F * static_cast<float>(sky.side));
+    const VI cell = hn::ConvertTo(kI, hn::Mul(hn::Add(share, hn::Set(kF, 1.0F)), half));
+    return hn::Min(hn::Max(cell, hn::Zero(kI)), hn::Set(kI, sky.side - 1));
+  }
+
   static VI around(VF i, int period) {
     const VF count = hn::Set(kF, static_cast<float>(period));
     return hn::ConvertTo(kI, hn::NegMulAdd(count, hn::Floor(hn::Div(i, count)), i));
@@ -159,10 +179,9 @@ HWY_INLINE Lanes no_lanes() {
 
 void test_points_lanes(const PointPass& pass, int row, PointSums& sums) {
   const PointLanes lanes(pass);
-  const bool with_half = !sums.half.empty();
   for_receivers(pass.depth, row, [&](const Receivers& at) {
     Lanes open = no_lanes();
-    Lanes half = no_lanes();
+    std::array<Lanes, 3> sky{no_lanes(), no_lanes(), no_lanes()};
     std::array<Lanes, kMostAlbedos> albedo{no_lanes(), no_lanes(), no_lanes()};
     for (std::size_t v = 0; v < kBunch; ++v) {
       const Framed framed = lanes.frame(at, v);
@@ -173,8 +192,12 @@ void test_points_lanes(const PointPass& pass, int row, PointSums& sums) {
         const auto is_open = hn::Eq(hidden, hn::Zero(kF));
         const VF counted = hn::IfThenElseZero(is_open, weight);
         open[v] = hn::Add(open[v], counted);
-        if (with_half) {
-          half[v] = hn::Add(half[v], hn::IfThenElseZero(hn::Gt(offset.y, hn::Zero(kF)), counted));
+        if (pass.sky) {
+          const VI cell = PointLanes::cell_of(*pass.sky, offset);
+          const VF all = hn::Add(counted, hn::Set(kF, point.kept));
+          sky[0][v] = hn::MulAdd(all, hn::GatherIndex(kF, pass.sky->red.data(), cell), sky[0][v]);
+          sky[1][v] = hn::MulAdd(all, hn::GatherIndex(kF, pass.sky->green.data(), cell), sky[1][v]);
+          sky[2][v] = hn::MulAdd(all, hn::GatherIndex(kF, pass.sky->blue.data(), cell), sky[2][v]);
         }
         if (pass.albedos.empty() || hn::AllTrue(kF, is_open)) continue;
         const VI texel =
@@ -186,7 +209,7 @@ void test_points_lanes(const PointPass& pass, int row, PointSums& sums) {
       }
     }
     add_to_row(open, at.column, sums.open);
-    if (with_half) add_to_row(half, at.column, sums.half);
+    for (std::size_t c = 0; c < sky.size() && pass.sky; ++c) add_to_row(sky[c], at.column, sums.sky[c]);
     for (std::size_t a = 0; a < pass.albedos.size(); ++a) add_to_row(albedo[a], at.column, sums.albedo[a]);
   });
 }

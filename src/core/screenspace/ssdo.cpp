@@ -17,6 +17,23 @@
 namespace heightlight {
 namespace {
 
+/// How far a blocker at that distance has faded, in [0, 1].
+double faded_share(const SsdoOptions& options, double distance) {
+  constexpr double kBegin = 0.5;
+  if (!options.smooth_end) return 0;
+  const double t = std::clamp((distance / options.reach - kBegin) / (1 - kBegin), 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+/// What points send although they are hidden is taken from their weights.
+void fade(const SsdoOptions& options, std::vector<TangentPoint>& points) {
+  for (TangentPoint& point : points) {
+    const double faded = faded_share(options, std::hypot(point.x, point.y, point.z));
+    point.kept = point.weight * static_cast<float>(faded);
+    point.weight *= static_cast<float>(1 - faded);
+  }
+}
+
 std::vector<TangentPoint> tangent_points(const SsdoOptions& options) {
   const std::vector<Eigen::Vector3d>& xis = relaxed_points(options.samples);
   std::vector<std::size_t> order(xis.size());
@@ -36,26 +53,8 @@ std::vector<TangentPoint> tangent_points(const SsdoOptions& options) {
                            static_cast<float>(distance * cosine),
                            static_cast<float>(2 * cosine / options.samples)};
   }
+  fade(options, points);
   return points;
-}
-
-/// How far a blocker at that distance has faded, in [0, 1].
-double faded_share(const SsdoOptions& options, double distance) {
-  constexpr double kBegin = 0.5;
-  if (!options.smooth_end) return 0;
-  const double t = std::clamp((distance / options.reach - kBegin) / (1 - kBegin), 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
-
-/// The points, with what they lose where they are hidden for their weights; and what they send all the same.
-double take_faded(const SsdoOptions& options, std::vector<TangentPoint>& points) {
-  double always = 0;
-  for (TangentPoint& point : points) {
-    const double faded = faded_share(options, std::hypot(point.x, point.y, point.z));
-    always += faded * double{point.weight};
-    point.weight *= static_cast<float>(1 - faded);
-  }
-  return always;
 }
 
 void check_options(const SsdoOptions& options) {
@@ -94,19 +93,19 @@ std::vector<Map> filter(const DepthBuffer& depth, const SsdoOptions& options, st
   return maps;
 }
 
-/// E₀/π, and that of the half of the sky.
-std::vector<Map> trace_direct(const DepthBuffer& depth, const std::vector<TangentPoint>& points,
-                              const SsdoOptions& options) {
-  std::vector<Map> sums(2, Map(depth.width, depth.height));
+/// E₀/π under an even sky.
+Map trace_direct(const DepthBuffer& depth, const std::vector<TangentPoint>& points,
+                 const SsdoOptions& options) {
+  double kept = 0;
+  for (const TangentPoint& point : points) kept += double{point.kept};
+  std::vector<Map> sums(1, Map(depth.width, depth.height, static_cast<float>(kept)));
   for_passes(depth, points, options, [&](int row, const PointPass& pass) {
     PointSums line;
     line.open.resize(static_cast<std::size_t>(depth.width));
-    line.half = line.open;
     test_points(pass, row, line);
     add_row(line.open, row, frame_count(options.noise), sums[0]);
-    add_row(line.half, row, frame_count(options.noise), sums[1]);
   });
-  return filter(depth, options, std::move(sums));
+  return std::move(filter(depth, options, std::move(sums))[0]);
 }
 
 /// E₁/π from senders of the given radiance.
@@ -128,14 +127,10 @@ Map trace_bounce(const DepthBuffer& depth, const std::vector<TangentPoint>& poin
 ScreenSpaceView ssdo(const DepthBuffer& depth, const std::vector<SurfaceAlbedo>& albedos,
                      const SsdoOptions& options) {
   check_options(options);
-  std::vector<TangentPoint> points = tangent_points(options);
-  const double always = take_faded(options, points);
-  std::vector<Map> direct = trace_direct(depth, points, options);
-  for (float& open : direct[0].values) open += static_cast<float>(always);
+  const std::vector<TangentPoint> points = tangent_points(options);
   ScreenSpaceView view;
   view.samples_per_texel = static_cast<double>(options.samples) * frame_count(options.noise);
-  view.sky_view_factor = std::move(direct[0]);
-  if (!options.smooth_end) view.half_sky = std::move(direct[1]);
+  view.sky_view_factor = trace_direct(depth, points, options);
   Map white;  // the bounce of a white surface, of which those of constant albedos are shares
   for (const SurfaceAlbedo& albedo : albedos) {
     Map total = view.sky_view_factor;
@@ -152,6 +147,28 @@ ScreenSpaceView ssdo(const DepthBuffer& depth, const std::vector<SurfaceAlbedo>&
     view.totals.push_back(std::move(total));
   }
   return view;
+}
+
+double ssdo_solid_angle(const SsdoOptions& options) { return 2 * std::numbers::pi / options.samples; }
+
+Image<Vector3> ssdo_under_sky(const DepthBuffer& depth, const SkyGrid& sky, const SsdoOptions& options) {
+  check_options(options);
+  const std::vector<TangentPoint> points = tangent_points(options);
+  std::vector<Map> sums(3, Map(depth.width, depth.height));
+  for_passes(depth, points, options, [&](int row, PointPass pass) {
+    pass.sky = &sky;
+    PointSums line;
+    line.open.resize(static_cast<std::size_t>(depth.width));
+    for (std::vector<float>& channel : line.sky) channel.resize(line.open.size());
+    test_points(pass, row, line);
+    for (std::size_t c = 0; c < sums.size(); ++c)
+      add_row(line.sky[c], row, frame_count(options.noise), sums[c]);
+  });
+  sums = filter(depth, options, std::move(sums));
+  Image<Vector3> light(depth.width, depth.height);
+  for (std::size_t i = 0; i < light.size(); ++i)
+    light.values[i] = {sums[0].values[i], sums[1].values[i], sums[2].values[i]};
+  return light;
 }
 
 }  // namespace heightlight

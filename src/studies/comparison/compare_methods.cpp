@@ -5,6 +5,7 @@
 
 #include "base/progress.h"
 #include "comparison/closed_form_totals.h"
+#include "comparison/sky_comparison.h"
 
 namespace heightlight {
 namespace {
@@ -29,8 +30,6 @@ class RowWriter {
     if (estimate.bent_normal.size() > 0) {
       write(kBentQuantity, measure(angles_deg(estimate.bent_normal, reference_.bent_normal)));
     }
-    if (estimate.half_sky.size() > 0)
-      write(kTwoToneQuantity, two_tone_error(estimate.sky_view_factor, estimate.half_sky));
   }
 
   /// `estimate` has the total at the a-th albedo alone.
@@ -54,17 +53,10 @@ class RowWriter {
     }
   }
 
-  /// What comes from either half of the sky, by the share of an open hemisphere that a direction has of each:
-  /// from the normal, as AO does, or from the bent normal (file 000 section 5).
-  void add_two_tone(const Contender& contender, const Estimate& estimate, Cost cost) const {
-    const auto add = [&](const Image<Vector3>& direction, const char* name) {
-      Map half = estimate.sky_view_factor;
-      for (std::size_t i = 0; i < half.size(); ++i) half.values[i] *= (1 + direction.values[i].y) / 2;
-      rows_.push_back(row(contender, estimate, name, kTwoToneQuantity, cost,
-                          two_tone_error(estimate.sky_view_factor, half)));
-    };
-    add(scene_.surface.normal, "by normal");
-    if (estimate.bent_normal.size() > 0) add(estimate.bent_normal, "by bent normal");
+  /// Direct light of the reference's sky; `variant` says what was made of the AO.
+  void add_sky_light(const Contender& contender, const Estimate& estimate, const std::string& variant,
+                     Cost cost, const ErrorStatistics& error) const {
+    rows_.push_back(row(contender, estimate, variant, reference_.sky.quantity, cost, error));
   }
 
  private:
@@ -90,24 +82,6 @@ class RowWriter {
       outside += std::isnan(total.values[i]) ? 1 : 0;
     }
     return present > 0 ? static_cast<double>(outside) / static_cast<double>(present) : 0;
-  }
-
-  /// Of the three channels together. Red is 1 from the one half and 0.3 from the other, blue the reverse,
-  /// green 0.6 from both; all over their mean.
-  ErrorStatistics two_tone_error(const Map& sky, const Map& half) const {
-    constexpr double kWarm[] = {1, 0.6, 0.3};
-    Map channels(sky.width * 3, sky.height);
-    for (std::size_t i = 0; i < sky.size(); ++i) {
-      const double half_error = double{half.values[i]} - double{reference_.half_sky.values[i]};
-      const double rest_error =
-          double{sky.values[i]} - double{reference_.sky_view_factor.values[i]} - half_error;
-      for (std::size_t c = 0; c < 3; ++c) {
-        const double mean = (kWarm[c] + kWarm[2 - c]) / 2;
-        channels.values[3 * i + c] =
-            static_cast<float>((kWarm[c] * half_error + kWarm[2 - c] * rest_error) / mean);
-      }
-    }
-    return measure(channels);
   }
 
   const ComparedScene& scene_;
@@ -188,6 +162,20 @@ void compare_totals(const ComparedScene& scene, const RowWriter& writer, const C
   if (contender.finds_occlusion) comparison.stages.push_back(std::move(stage));
 }
 
+/// Light under the sky: what AO makes of it, of those that are shown; and every method's own.
+void compare_sky_light(const ComparedScene& scene, const RowWriter& writer, const Contender& contender,
+                       const Estimate& estimate, Cost cost, SkyComparison& skies, Comparison& comparison) {
+  std::vector<SkyLightResult> results;
+  if (contender.shown || contender.role == kExactMethod)
+    results = skies.compare_occlusion(contender, estimate, scene.surface, cost);
+  if (contender.run_under_sky) results.push_back(skies.compare_own(contender));
+  for (SkyLightResult& result : results) {
+    writer.add_sky_light(contender, estimate, result.variant, result.cost, result.error);
+    const bool is_drawn = !contender.role.empty() || (contender.shown && result.variant.empty());
+    if (is_drawn) comparison.sky_light.push_back(std::move(result.rendered));
+  }
+}
+
 }  // namespace
 
 std::string total_quantity(const ComparedAlbedo& albedo) { return "total_irradiance_" + albedo.label; }
@@ -201,7 +189,9 @@ Comparison compare_methods(const ComparedScene& scene, const ComparisonReference
                          .parameters = std::to_string(reference.azimuths) + " azimuths",
                          .role = kExactMethod};
   writer.add_closed_forms(itself, exact, reference.cost);
-  writer.add_two_tone(itself, exact, reference.cost);
+  SkyComparison skies(reference);
+  comparison.sky_light.push_back(skies.exact());
+  compare_sky_light(scene, writer, itself, exact, reference.cost, skies, comparison);
   comparison.roles.push_back({itself.role, itself.method, itself.parameters, reference.cost.core});
   add_role(scene, reference, itself, exact, comparison);
 
@@ -217,8 +207,9 @@ Comparison compare_methods(const ComparedScene& scene, const ComparisonReference
       writer.add_closed_forms(contender, estimate, cost);
     }
     if (contender.finds_totals) compare_totals(scene, writer, contender, cost, comparison);
+    if (contender.finds_occlusion)
+      compare_sky_light(scene, writer, contender, estimate, cost, skies, comparison);
     if (contender.shown) {
-      writer.add_two_tone(contender, estimate, cost);
       Map differences = subtract(estimate.sky_view_factor, reference.sky_view_factor);
       const ErrorStatistics error = measure(differences);
       comparison.shown.push_back({.title = contender.method,

@@ -15,10 +15,7 @@ namespace heightlight {
 inline constexpr const char* kSkyQuantity = "sky_view_factor";
 inline constexpr const char* kOcclusionQuantity = "ambient_occlusion";
 inline constexpr const char* kBentQuantity = "bent_normal_deg";  ///< angles, in degrees
-/// Irradiance of a sky that is warm (1, 0.6, 0.3) where y > 0 and cold (0.3, 0.6, 1) elsewhere, over its
-/// mean.
-inline constexpr const char* kTwoToneQuantity = "two_tone_irradiance";
-std::string total_quantity(const ComparedAlbedo& albedo);  ///< "total_irradiance_0.5"
+std::string total_quantity(const ComparedAlbedo& albedo);        ///< "total_irradiance_0.5"
 
 /// One line of the table.
 struct ComparisonRow {
@@ -69,6 +66,7 @@ struct Comparison {
   std::vector<FormPanel> panels;         ///< of the exact AO, then of GTAO as games run it
   std::vector<RenderedForm> rendered;    ///< likewise
   std::vector<RenderedForm> directions;  ///< A of GTAO by 1, 16 and 96 directions, and the exact one
+  std::vector<RenderedForm> sky_light;   ///< direct light of the reference's sky: the exact one first
   std::vector<StageCost> stages;
 };
 

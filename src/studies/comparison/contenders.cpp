@@ -58,7 +58,6 @@ Estimate run_screen_space(const ComparedScene& scene, const ScreenSpaceMethod& m
   estimate.sky_view_factor = std::move(view.sky_view_factor);
   estimate.ambient_occlusion = std::move(view.ambient_occlusion);
   estimate.bent_normal = std::move(view.bent_normal);
-  estimate.half_sky = std::move(view.half_sky);
   estimate.seen = std::move(view.seen);
   estimate.totals = std::move(view.totals);
   estimate.samples_per_texel = view.samples_per_texel;
@@ -160,6 +159,11 @@ std::vector<Contender> make_contenders(const ComparedScene& scene) {
                           .run = [scene, &method](const std::vector<ComparedAlbedo>& albedos) {
                             return run_screen_space(scene, method, albedos);
                           }});
+    if (!method.run_under_sky) continue;
+    contenders.back().sky_solid_angle = method.sky_solid_angle;
+    contenders.back().run_under_sky = [scene, &method](const SkyGrid& sky) {
+      return method.run_under_sky(scene.depth, sky);
+    };
   }
   add_near_and_far(scene, contenders);
   return contenders;

@@ -15,7 +15,6 @@ struct Estimate {
   Map sky_view_factor;
   Map ambient_occlusion;
   Image<Vector3> bent_normal;
-  Map half_sky;             ///< E/π under a sky that shines only from y > 0
   Map seen;                 ///< n, the mean sky view factor of what a texel sees
   std::vector<Map> totals;  ///< E/π per albedo
   double samples_per_texel = 0;
@@ -32,6 +31,8 @@ struct Contender {
   bool finds_totals = false;    ///< of the albedos that it is given, beside its occlusion if it has one
   std::function<void()> prepare = {};  ///< to be called before it is timed, where it is not empty
   std::function<Estimate(const std::vector<ComparedAlbedo>& albedos)> run = {};
+  double sky_solid_angle = 0;  ///< sr, that it wants a sky averaged over; 0: it finds no light of a sky
+  std::function<Image<Vector3>(const SkyGrid& sky)> run_under_sky = {};  ///< then empty
 };
 
 /// What contenders work on; all of it must outlive them.

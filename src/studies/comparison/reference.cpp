@@ -9,42 +9,24 @@
 #include "base/hash.h"
 #include "base/parallel.h"
 #include "base/texel_algebra.h"
+#include "skylight/sky_slices.h"
 #include "visibility/exact_walk.h"
 #include "visibility/ray_caster.h"
-#include "visibility/slice_integrals.h"
 
 namespace heightlight {
 namespace {
 
 constexpr int kCheckedReceivers = 256;
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr double kTotalError = 0.001;  // wanted of the totals
-
-/// What the sky's half with y > 0 sends: the azimuths of the first half turn.
-double half_sky(const Surface& surface, const ExactWalker& walker, const SliceView& view, int row,
-                int column) {
-  const Eigen::Vector3d normal = as_eigen(surface.normal(row, column)).cast<double>();
-  double half = 0;
-  double hemisphere = 0;
-  for (int k = 0; k < walker.azimuths(); ++k) {
-    const double azimuth = walker.azimuth_rad(k);
-    const double along = normal.x() * std::cos(azimuth) + normal.y() * std::sin(azimuth);
-    const SliceNormal in_slice{along, normal.z()};
-    const double tangent = tangent_slope(in_slice);
-    hemisphere += cosine_mass(in_slice, elevation_of_slope(tangent), Elevation{});
-    if (azimuth >= std::numbers::pi) continue;
-    const double horizon = std::tan(view.horizon_rad[static_cast<std::size_t>(k)]);
-    half += cosine_mass(in_slice, elevation_of_slope(std::max(tangent, horizon)), Elevation{});
-  }
-  return half / hemisphere;
-}
 
 void walk_all(const Surface& surface, const ReferenceOptions& options, ComparisonReference& reference) {
   const Stopwatch watch;
   const ExactWalker walker(surface, options.azimuths);
   reference.azimuths = options.azimuths;
-  reference.ambient_occlusion = reference.sky_view_factor = reference.half_sky =
-      Map(surface.width(), surface.height());
-  reference.bent_normal = Image<Vector3>(surface.width(), surface.height());
+  const SkySlices sky(options.sky.light, options.azimuths);
+  reference.ambient_occlusion = reference.sky_view_factor = Map(surface.width(), surface.height());
+  reference.bent_normal = reference.sky_light = Image<Vector3>(surface.width(), surface.height());
   Progress progress("reference", surface.height(), options.watch);
   parallel_for(
       surface.height(),
@@ -53,13 +35,13 @@ void walk_all(const Surface& surface, const ReferenceOptions& options, Compariso
         SliceView view;
         for (int column = 0; column < surface.width(); ++column) {
           walker.view(row, column, view);
+          const Eigen::Vector3d normal = as_eigen(surface.normal(row, column)).cast<double>();
           reference.ambient_occlusion(row, column) = static_cast<float>(view.ambient_occlusion);
           reference.sky_view_factor(row, column) = static_cast<float>(view.sky_view_factor);
           reference.bent_normal(row, column) = to_vector3(view.bent_normal.cast<float>());
-          reference.half_sky(row, column) =
-              std::isnan(view.sky_view_factor)
-                  ? std::numeric_limits<float>::quiet_NaN()
-                  : static_cast<float>(half_sky(surface, walker, view, row, column));
+          reference.sky_light(row, column) =
+              view.horizon_rad.empty() ? Vector3{kNaN, kNaN, kNaN}
+                                       : to_vector3(sky.irradiance(normal, view.horizon_rad).cast<float>());
         }
       },
       &progress);
@@ -138,6 +120,7 @@ void find_totals(const Surface& surface, const ReferenceOptions& options, Compar
 ComparisonReference build_reference(const Surface& surface, const ReferenceOptions& options) {
   check_azimuths(options.azimuths);
   ComparisonReference reference;
+  reference.sky = options.sky;
   walk_all(surface, options, reference);
   check_walks(surface, options, reference);
   find_totals(surface, options, reference);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/stopwatch.h"
+#include "heightlight/sky_light.h"
 #include "heightlight/solve.h"
 
 namespace heightlight {
@@ -24,8 +25,16 @@ struct ComparedAlbedo {
   }
 };
 
+/// A sky that is not the same all over, under which direct light is compared.
+struct ComparedSky {
+  std::string quantity = "two_tone_irradiance";  ///< as the table has it
+  std::string label = "a sky warm where y > 0, cold elsewhere";
+  SkyLight light = normalised(two_tone_sky());
+};
+
 struct ReferenceOptions {
   int azimuths = 128;  ///< of the exact walk that every texel makes
+  ComparedSky sky = {};
   std::vector<ComparedAlbedo> albedos;
   std::uint64_t memory = ~0ULL;  ///< bytes that finding the totals may take
   std::uint64_t seed = 1;
@@ -38,10 +47,11 @@ struct ComparisonReference {
   Map ambient_occlusion;  ///< α, by exact walks
   Map sky_view_factor;    ///< A, likewise
   Image<Vector3> bent_normal;
-  Map half_sky;             ///< E/π under a sky that shines only from y > 0, by exact walks
-  std::vector<Map> totals;  ///< E/π per albedo, by planned horizon walks
-  Map seen;                 ///< n, from the total at kSeenAlbedo, likewise
-  Cost cost;                ///< of the exact walks
+  ComparedSky sky;
+  Image<Vector3> sky_light;  ///< E/π under that sky, by exact walks
+  std::vector<Map> totals;   ///< E/π per albedo, by planned horizon walks
+  Map seen;                  ///< n, from the total at kSeenAlbedo, likewise
+  Cost cost;                 ///< of the exact walks
   Cost total_cost;
   Evidence total_evidence;  ///< of the totals
 

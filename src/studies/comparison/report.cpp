@@ -137,6 +137,22 @@ void write_forms(std::FILE* file, const ReportInput& input, const ComparedAlbedo
   std::fputc('\n', file);
 }
 
+/// Where a sky is not the same all over, AO alone does not tell what comes from it.
+void write_sky_light(std::FILE* file, const ReportInput& input) {
+  fmt::print(
+      file,
+      "## Direct light of {}\n\nE/π, in units of what a level open plane receives; sky_light.png shows "
+      "it. By normal and by bent normal: AO times a prefiltered sky.\n\n"
+      "| method | core-seconds | RMSE | bias | p99 |\n|---|---|---|---|---|\n",
+      as_markdown(input.reference.sky.label));
+  for (const ComparisonRow& row : input.comparison.rows) {
+    if (row.quantity != input.reference.sky.quantity) continue;
+    fmt::print(file, "| ");
+    write_row(file, row);
+  }
+  std::fputc('\n', file);
+}
+
 /// File 001, table 1: what the stages take apart.
 void write_stages(std::FILE* file, const ReportInput& input) {
   if (input.comparison.stages.empty()) return;
@@ -167,6 +183,7 @@ void write_report(const std::filesystem::path& path, const ReportInput& input) {
     }
     write_shown(file, input);
     for (const ComparedAlbedo& albedo : input.scene.albedos) write_forms(file, input, albedo);
+    write_sky_light(file, input);
     write_stages(file, input);
   });
 }

@@ -9,6 +9,7 @@
 #include "base/digits.h"
 #include "comparison/comparison_csv.h"
 #include "comparison/pareto_front.h"
+#include "comparison/sky_comparison.h"
 #include "files/output_file.h"
 #include "plot/gnuplot_run.h"
 #include "plot/panel_grid.h"
@@ -45,7 +46,7 @@ std::vector<std::string> names_of(const std::vector<ComparisonRow>& rows,
   std::vector<std::string> names;
   for (const ComparisonRow& row : rows) {
     const std::string& name = row.*member;
-    const bool is_direction = row.quantity == kTwoToneQuantity;  // not a form
+    const bool is_direction = row.variant == kByNormal || row.variant == kByBentNormal;  // not a form
     if (row.method != kExactMethod && !is_direction &&
         std::find(names.begin(), names.end(), name) == names.end())
       names.push_back(name);
