@@ -77,12 +77,16 @@ struct Limits {
 };
 
 struct Request {
-  Wanted wanted;
+  Wanted wanted = {};
   Accuracy accuracy = {};
   Checks checks = {};
   Limits limits = {};
   Watch watch = {};
   BounceSink* sink = nullptr;
+  /// An operator that find_operator found for this surface and this accuracy: bounces and totals go by it,
+  /// and are the same, to the last bit, as where each request finds its own. Its sky is the one of
+  /// `wanted.sky`.
+  const PlannedTransport* transport = nullptr;
 };
 
 /// What was asked for; the rest is empty. All maps have the surface's size.
@@ -104,6 +108,10 @@ struct Results {
 /// Solves. Throws UsageError, naming the quantity, for what makes no sense, MemoryError before anything is
 /// taken that `limits.memory` does not hold, Cancelled when the watch says so.
 Results solve(const Surface& surface, const Request& request);
+
+/// The operator that a request's bounces and totals go by, for many requests (Request::transport). Of
+/// `request`, the accuracy, the limits and the watch count. `surface` must outlive it. Throws as solve does.
+PlannedTransport find_operator(const Surface& surface, const Request& request);
 
 /// Bytes that solving takes at its worst moment on a map of that size, beside the links: from the sizes of
 /// the types that it holds. What the caller holds is not in it.

@@ -59,6 +59,16 @@ void check_accuracy(const Accuracy& accuracy, const Wanted& wanted) {
   }
 }
 
+void check_transport(const Surface& surface, const Request& request) {
+  if (!request.transport) return;
+  if (!request.transport->transport ||
+      request.transport->transport->direct.size() != surface.map.height.size())
+    throw UsageError("transport", "", "must be an operator of the surface");
+  const SkyWanted& moments = request.wanted.moments;
+  if (keeps_sky(request.wanted) && (moments.first || moments.second))
+    throw UsageError("transport", "", "that is given tells shares of the sky, not its moments");
+}
+
 }  // namespace
 
 void check_request(const Surface& surface, const Request& request) {
@@ -71,6 +81,7 @@ void check_request(const Surface& surface, const Request& request) {
   for (const Albedo& albedo : wanted.totals) check_albedo(surface, albedo);
   check_direct(surface, wanted);
   check_accuracy(request.accuracy, wanted);
+  check_transport(surface, request);
 }
 
 bool needs_operator(const Wanted& wanted) {

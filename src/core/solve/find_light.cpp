@@ -44,9 +44,11 @@ void find_light(const Task& task, Results& results) {
   const Wanted& wanted = request.wanted;
   Evidence& evidence = results.evidence;
   Stopwatch watch;
-  PlannedTransport found =
-      find_operator(task, request.accuracy.error, keeps_sky(wanted) ? wanted.moments : SkyWanted{});
-  Transport& transport = *found.transport;
+  PlannedTransport own;
+  if (!request.transport)
+    own = find_operator(task, request.accuracy.error, keeps_sky(wanted) ? wanted.moments : SkyWanted{});
+  const PlannedTransport& found = request.transport ? *request.transport : own;
+  const Transport& transport = *found.transport;
   describe_operator(found, task, evidence);
   evidence.seconds.visibility += watch.lap();
   if (const auto* links = dynamic_cast<const FormFactors*>(&transport); links && request.sink) {
@@ -71,9 +73,14 @@ void find_light(const Task& task, Results& results) {
   evidence.seconds.bounces += watch.lap() - (evidence.seconds.sink - for_links);
   if (wanted.seen) results.whole_sky_view_factor = transport.sky_view_factor;
   if (!keeps_sky(wanted)) return;
-  results.ambient_occlusion = std::move(transport.ambient_occlusion);
-  results.sky_view_factor = std::move(transport.sky_view_factor);
-  results.moments = std::move(found.moments);
+  if (request.transport) {
+    results.ambient_occlusion = transport.ambient_occlusion;
+    results.sky_view_factor = transport.sky_view_factor;
+    return;
+  }
+  results.ambient_occlusion = std::move(own.transport->ambient_occlusion);
+  results.sky_view_factor = std::move(own.transport->sky_view_factor);
+  results.moments = std::move(own.moments);
 }
 
 }  // namespace heightlight

@@ -90,6 +90,17 @@ Results solve(const Surface& surface, const Request& request) {
   return results;
 }
 
+PlannedTransport find_operator(const Surface& surface, const Request& request) {
+  Request bounced = request;
+  bounced.wanted = {.totals = {{.constant = {0}}}};  // something that an operator is found for
+  check_request(surface, bounced);
+  const ThreadScope threads(request.limits.threads);
+  Evidence evidence;
+  const Task task{
+      .surface = surface, .request = bounced, .free_memory = memory_left(surface, bounced, evidence)};
+  return find_operator(task, request.accuracy.error, {});
+}
+
 Image<Vector3> bent_normals(const SkyMoments& moments, const Surface& surface) {
   Image<Vector3> bent(surface.width(), surface.height());
   for_texels(bent, [&](std::size_t i) {
