@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "heightlight/image.h"
@@ -65,6 +66,12 @@ enum class Falloff {
   root,        ///< √(d/D)
   exponential  ///< 1 − exp(−4 d/D), scaled to be 1 at D (exponential_openness, forms.h)
 };
+
+/// Their names in that order: none, linear, sqrt, exponential.
+const std::vector<std::string>& falloff_names();
+
+/// The one of that name. Throws UsageError where there is none.
+Falloff falloff_named(const std::string& name);
 
 /// As far as occluders count.
 struct Reach {

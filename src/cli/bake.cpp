@@ -48,7 +48,7 @@ BakeOutcome bake_file(const BakeCommand& command, const BakeInput& input, const 
   if (!command.max_distance.empty()) {
     const double width = loaded.map.spacing.x * loaded.map.height.width;
     options.reach = Reach{.distance = parse_distance("max_distance", command.max_distance, width),
-                          .falloff = parse_falloff(command.falloff)};
+                          .falloff = falloff_named(command.falloff)};
   }
   options.surface = surface_of(command, loaded.facts.sha256);
   options.request = request_of(command, loaded.facts.sha256, albedo.sha256);

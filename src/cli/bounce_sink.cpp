@@ -16,7 +16,7 @@ Reach obscurance_reach(const SimulateOptions& options, const Surface& surface) {
   const double width = surface.map.spacing.x * surface.width();
   const double height = surface.map.spacing.y * surface.height();
   const Reach reach{.distance = parse_distance("obscurance", options.obscurance, width),
-                    .falloff = parse_falloff(options.falloff)};
+                    .falloff = falloff_named(options.falloff)};
   if (surface.tiles() && reach.distance > std::min(width, height) / 2)
     throw UsageError("obscurance", options.obscurance, "passes half of a map that tiles");
   return reach;

@@ -6,7 +6,7 @@
 #include "base/progress.h"
 #include "cli/commands.h"
 #include "cli/fit_pictures.h"
-#include "cli/fit_report.h"
+#include "cli/fit_print.h"
 #include "cli/map_options.h"
 #include "cli/plots.h"
 #include "cli/tell.h"
@@ -16,6 +16,7 @@
 #include "files/output_file.h"
 #include "files/printable.h"
 #include "files/staged_output.h"
+#include "fit/fit_study.h"
 #include "heightlight/closed_forms.h"
 #include "heightlight/error.h"
 #include "plot/ratio_plots.h"
@@ -50,49 +51,6 @@ std::vector<JudgedMap> read_maps(const FitOptions& options, std::vector<std::fil
     tell("warning: " + std::to_string(without_run) + " of " + std::to_string(maps.size()) +
          " maps have no summary.json beside their curves, and are not judged by what it tells");
   return maps;
-}
-
-/// The root mean square that the published parameters leave.
-double rms_as_published(const FormFamily& family, const std::vector<FitPoint>& points) {
-  const Eigen::VectorXd published = Eigen::Map<const Eigen::VectorXd>(
-      family.published.data(), static_cast<Eigen::Index>(family.published.size()));
-  const std::vector<double>& albedos = target_albedos(family.target);
-  ErrorTally tally;
-  for (const FitPoint& point : points) {
-    for (std::size_t k = 0; k < albedos.size(); ++k) {
-      tally.add(family.evaluate(published, point.inputs, albedos[k]) - point.measured[k], point.weight);
-    }
-  }
-  return tally.rms();
-}
-
-/// Families that no map has the inputs for are left out.
-std::vector<FittedFamily> fit_families(const FitOptions& options, const TrialForms& trial,
-                                       const std::vector<JudgedMap>& maps) {
-  const std::vector<double> weights(maps.size(), 1);
-  std::vector<FittedFamily> fitted;
-  const Watch watch = terminal_watch(options.run.quiet);
-  Progress progress("fitting", static_cast<std::int64_t>(trial.families.size()), watch);
-  for (const FormFamily& family : trial.families) {
-    progress.throw_if_stopped();
-    const std::vector<FitPoint> points = collect_points(family, maps);
-    progress.add(1);
-    if (points.empty()) continue;
-    FittedFamily one{.family = &family,
-                     .fit = fit_family(family, points, weights),
-                     .published_rms = rms_as_published(family, points)};
-    one.intervals =
-        bootstrap_family(family, points, maps, one.fit.parameters, options.bootstrap, options.run.seed);
-    fitted.push_back(std::move(one));
-  }
-  return fitted;
-}
-
-std::vector<AlbedoCubic> cubics_by_albedo(const std::vector<JudgedMap>& maps, const char* name) {
-  for (const FormFamily& family : form_families()) {
-    if (family.name == name) return fit_cubics(collect_points(family, maps), target_albedos(family.target));
-  }
-  return {};
 }
 
 /// The forms of the list with the constants fitted here, then the user's.
@@ -160,28 +118,19 @@ std::vector<std::string> fit_result_names() {
 
 void fit(FitOptions& options) {
   apply_run_options(options.run);
-  if (options.bootstrap < 20 || options.bootstrap > 100000) {
-    throw UsageError("bootstrap", std::to_string(options.bootstrap), "must be from 20 to 100000");
-  }
+  check_bootstrap(options.bootstrap);
   const std::vector<UserForm> own = read_user_forms(options.forms.forms, options.forms.file);
   std::vector<std::filesystem::path> inputs = options.curves;
   inputs.push_back(options.forms.file);
   StagedFolder folder(options.folder, inputs, fit_result_names(), {.file = "models.json"});
   Plots plots;
-  FitReport report;
-  report.seed = options.run.seed;
-  report.maps = read_maps(options, report.inputs);
-  report.forms = list_trial_forms(own);
-  report.families = fit_families(options, report.forms, report.maps);
-  report.cubics_three_bounces = cubics_by_albedo(report.maps, "cubic_three_bounces");
-  report.cubics_all_bounces = cubics_by_albedo(report.maps, "cubic");
-  report.bounce_fits =
-      fit_bounces(report.maps, options.bootstrap, options.run.seed, terminal_watch(options.run.quiet));
-  for (const JudgedMap& map : report.maps)
-    report.ratios.push_back(find_bounce_ratios(map.name, map.over_alpha));
-  report.trial = cross_validate(report.maps, report.forms, terminal_watch(options.run.quiet));
+  std::vector<std::filesystem::path> curves;
+  std::vector<JudgedMap> maps = read_maps(options, curves);
+  FitReport report = fit_maps(
+      std::move(maps), own,
+      {.draws = options.bootstrap, .seed = options.run.seed, .watch = terminal_watch(options.run.quiet)});
+  report.inputs = std::move(curves);
   for (const UserForm& form : own) check_judged(report, form);
-  report.floors = find_floors(report.maps);
 
   write_bytes(folder.file("models.csv"), report_csv(report));
   write_bytes(folder.file("ratios.csv"), ratios_csv(report));

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "cli/fit_report.h"
+#include "fit/fit_report.h"
 #include "heightlight/closed_forms.h"
 #include "plot/bounce_fit_plots.h"
 #include "plot/fit_plots.h"

@@ -1,8 +1,8 @@
+#include "cli/fit_print.h"
+
 #include <fmt/core.h>
 
 #include <cmath>
-
-#include "cli/fit_report.h"
 
 namespace heightlight {
 namespace {

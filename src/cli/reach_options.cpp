@@ -16,15 +16,4 @@ double parse_distance(const std::string& quantity, const std::string& text, doub
   return unit.empty() ? value : value / 100 * width;
 }
 
-const std::vector<std::string>& falloff_names() {
-  static const std::vector<std::string> names{"none", "linear", "sqrt", "exponential"};
-  return names;
-}
-
-Falloff parse_falloff(const std::string& name) {
-  if (name == "linear") return Falloff::linear;
-  if (name == "sqrt") return Falloff::root;
-  return name == "exponential" ? Falloff::exponential : Falloff::none;
-}
-
 }  // namespace heightlight

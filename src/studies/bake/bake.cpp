@@ -94,6 +94,57 @@ void write_shaders(StagedFolder& folder) {
   write_bytes(folder.file("ao-n.hlsl"), stored_pair_shader(ShaderLanguage::hlsl));
 }
 
+/// A folder that is ready to take a bake. All arguments must outlive it.
+class StagedBake {
+ public:
+  StagedBake(const BakeOptions& options, const BakeTarget& target)
+      : options_(options),
+        target_(target),
+        files_(baked_files(target.name, options)),
+        former_(find_former_maps(target.folder / files_.back(), options.surface, files_)),
+        folder_(target.folder, target.inputs, files_, former_record()) {}
+
+  BakeOutcome write(const Material& material, const SourceFacts& facts, std::vector<Warning> warnings) {
+    Stopwatch watch;
+    const Surface& surface = *material.surface;
+    SidecarFacts told{
+        .source = target_.source,
+        .facts = facts,
+        .former = std::move(former_),
+        .warnings = find_warnings(std::move(warnings), surface.map, material.results.evidence, options_)};
+    const std::vector<BakedTexture> textures = baked_textures(material, options_);
+    write_textures(textures, surface);
+    told.files = folder_.written();  // the shaders that follow are those of every map in the folder
+    if (is_wanted(options_, MaterialMap::ao_n)) write_shaders(folder_);
+    told.output_seconds = watch.lap();
+    write_sidecar(folder_.file(files_.back()), options_, material, textures, told);
+    return {.warnings = std::move(told.warnings), .removed = folder_.commit()};
+  }
+
+ private:
+  FormerRecord former_record() const {
+    const bool same_heights = !former_.empty();
+    return same_heights ? FormerRecord{} : FormerRecord{.file = files_.back(), .prefix = target_.name + "_"};
+  }
+
+  /// Compression takes longest, and the libraries compress a file on one thread.
+  void write_textures(const std::vector<BakedTexture>& textures, const Surface& surface) {
+    const TexelEncoding encoding = make_encoding(options_);
+    std::vector<std::filesystem::path> paths;
+    for (std::size_t i = 0; i < textures.size(); ++i) paths.push_back(folder_.file(files_[i]));
+    parallel_for(static_cast<std::int64_t>(textures.size()), [&](std::int64_t i) {
+      const auto at = static_cast<std::size_t>(i);
+      write_baked(paths[at], textures[at], surface, encoding);
+    });
+  }
+
+  const BakeOptions& options_;
+  const BakeTarget& target_;
+  std::vector<std::string> files_;
+  nlohmann::ordered_json former_;
+  StagedFolder folder_;
+};
+
 }  // namespace
 
 const std::vector<MaterialMapName>& material_maps() {
@@ -157,36 +208,15 @@ void check_bake_options(const BakeOptions& options) {
 
 BakeOutcome bake_material(LoadedHeightmap loaded, const BakeOptions& options, const BakeTarget& target) {
   check_bake_options(options);
-  const std::vector<std::string> files = baked_files(target.name, options);
-  nlohmann::ordered_json former = find_former_maps(target.folder / files.back(), options.surface, files);
-  const bool same_heights = !former.empty();
-  StagedFolder staged(
-      target.folder, target.inputs, files,
-      same_heights ? FormerRecord{} : FormerRecord{.file = files.back(), .prefix = target.name + "_"});
+  StagedBake staged(options, target);
   const Surface surface = build_surface(std::move(loaded.map));
-  const Material material = find_material(surface, options);
-  const std::vector<BakedTexture> textures = baked_textures(material, options);
-  const TexelEncoding encoding = make_encoding(options);
-  Stopwatch watch;
-  SidecarFacts facts{
-      .source = target.source,
-      .facts = loaded.facts,
-      .former = std::move(former),
-      .warnings = find_warnings(std::move(loaded.warnings), surface.map, material.results.evidence, options)};
-  std::vector<std::filesystem::path> paths;
-  for (std::size_t i = 0; i < textures.size(); ++i) {
-    paths.push_back(staged.file(files[i]));
-  }
-  // Compression takes longest, and the libraries compress a file on one thread.
-  parallel_for(static_cast<std::int64_t>(textures.size()), [&](std::int64_t i) {
-    const auto at = static_cast<std::size_t>(i);
-    write_baked(paths[at], textures[at], surface, encoding);
-  });
-  facts.files = staged.written();  // the shaders that follow are those of every map in the folder
-  if (is_wanted(options, MaterialMap::ao_n)) write_shaders(staged);
-  facts.output_seconds = watch.lap();
-  write_sidecar(staged.file(files.back()), options, material, textures, facts);
-  return {.warnings = std::move(facts.warnings), .removed = staged.commit()};
+  return staged.write(find_material(surface, options), loaded.facts, std::move(loaded.warnings));
+}
+
+BakeOutcome write_material(const Material& material, const SourceFacts& facts, const BakeOptions& options,
+                           const BakeTarget& target) {
+  check_bake_options(options);
+  return StagedBake(options, target).write(material, facts, {});
 }
 
 }  // namespace heightlight

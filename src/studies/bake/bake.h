@@ -95,6 +95,12 @@ struct BakeOutcome {
 /// replaced. Throws UsageError for options that contradict each other, Error when it can't be done.
 BakeOutcome bake_material(LoadedHeightmap loaded, const BakeOptions& options, const BakeTarget& target);
 
+struct Material;
+
+/// The same of a material that was found (material.h), by the same options. `facts` are of the heights.
+BakeOutcome write_material(const Material& material, const SourceFacts& facts, const BakeOptions& options,
+                           const BakeTarget& target);
+
 /// Throws UsageError, naming the option, for what no map can be baked with.
 void check_bake_options(const BakeOptions& options);
 

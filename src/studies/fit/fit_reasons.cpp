@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cli/fit_report.h"
+#include "fit/fit_report.h"
 #include "heightlight/error.h"
 
 namespace heightlight {

@@ -1,4 +1,4 @@
-#include "cli/fit_report.h"
+#include "fit/fit_report.h"
 
 #include <algorithm>
 #include <cmath>

@@ -23,7 +23,7 @@ struct FittedFamily {
   double published_rms = 0;  ///< of the family at its published parameters, over the same points
 };
 
-/// Everything that `heightlight fit` found out.
+/// Everything that a fit of maps found out.
 struct FitReport {
   std::vector<std::filesystem::path> inputs;  ///< the file of each map's curves, as given
   std::vector<JudgedMap> maps;
@@ -56,8 +56,5 @@ std::vector<std::string> explain_distances(const FitReport& report);
 /// ratios.csv: map,alpha,texels,tau,tau_published, then the ratios E2/E1 … of each bin; empty where there is
 /// none.
 std::string ratios_csv(const FitReport& report);
-
-/// What is said on the terminal: how far from the published, and why; whether τ is one number; the errors.
-void print_report(const FitReport& report);
 
 }  // namespace heightlight

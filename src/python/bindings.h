@@ -1,0 +1,48 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "heightlight/solve.h"
+
+// What the module heightlight._native offers to the package around it, which is written in Python. Functions
+// take and give plain arrays; names, defaults and documentation are the package's.
+
+namespace heightlight {
+
+namespace py = pybind11;
+
+/// How everything is found, as Python says it.
+struct Settings {
+  double error = 0.002;  ///< 0: exact slices
+  int azimuths = 0;
+  int rays = 0;  ///< > 0: by rays
+  std::uint64_t seed = 1;
+  int threads = 0;
+  std::uint64_t memory = 0;  ///< 0: four fifths of what the machine can still give
+  py::object progress = py::none();
+};
+
+/// Accuracy and limits of a request. Throws UsageError for a quantity out of its range.
+Request make_request(const Settings& settings);
+
+/// Evidence as the text of JSON.
+std::string evidence_text(const Evidence& evidence);
+
+/// A surface that Python and operators share.
+using SharedSurface = std::shared_ptr<const Surface>;
+
+// Each adds its part to the module.
+void add_surface(py::module_& module);
+void add_sky(py::module_& module);
+void add_operator(py::module_& module);
+void add_forms(py::module_& module);
+void add_files(py::module_& module);
+void add_bake(py::module_& module);
+void add_compare(py::module_& module);
+void add_fit(py::module_& module);
+
+}  // namespace heightlight

@@ -1,0 +1,162 @@
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "heightlight/closed_forms.h"
+#include "heightlight/curves.h"
+#include "heightlight/error.h"
+#include "python/arrays.h"
+#include "python/bindings.h"
+#include "python/python_watch.h"
+
+namespace heightlight {
+namespace {
+
+/// Bounces into curves, none of them kept.
+class CurveSink : public BounceSink {
+ public:
+  explicit CurveSink(int bins) : bins_(bins) {}
+
+  void take_sky(const Map& ambient_occlusion, const Map& sky_view_factor) override {
+    builders_.emplace_back(ambient_occlusion, AoKind::ambient_occlusion, bins_);
+    builders_.emplace_back(sky_view_factor, AoKind::sky_view_factor, bins_);
+  }
+  void take_bounce(int, const TexelVector& irradiance) override {
+    for (CurveBuilder& builder : builders_) builder.add(irradiance);
+  }
+  void take_tail(const TexelVector& tail) override {
+    for (CurveBuilder& builder : builders_) builder.add_tail(tail);
+  }
+
+  std::vector<BounceCurves> curves() const { return {builders_.at(0).curves(), builders_.at(1).curves()}; }
+
+ private:
+  int bins_;
+  std::vector<CurveBuilder> builders_;
+};
+
+/// F of one surface, found once.
+class Operator {
+ public:
+  Operator(SharedSurface surface, Settings settings)
+      : surface_(std::move(surface)), settings_(std::move(settings)) {
+    Request request = make_request(settings_);
+    PythonWatch watch(settings_.progress);
+    // The operator outlives this call and its watch.
+    request.watch = PythonWatch::of_this_thread();
+    found_ = watch.run([&](const Watch&) { return find_operator(*surface_, request); });
+  }
+
+  const Map& present() const { return found_.transport->sky_view_factor; }
+
+  py::array_t<double> direct() const { return take_texels(found_.transport->direct, present()); }
+  py::array_t<float> sky_view_factor() const { return take_map(present()); }
+  py::array_t<float> ambient_occlusion() const { return take_map(found_.transport->ambient_occlusion); }
+
+  /// F x, 0 where the sample is missing.
+  py::array_t<double> gather(const Array<double>& values) const {
+    check_shape(values, "irradiance", surface_->height(), surface_->width());
+    const TexelVector texels = read_texels(values);
+    if (std::any_of(texels.begin(), texels.end(), [](double value) { return !std::isfinite(value); }))
+      throw UsageError("irradiance", "", "must be finite; NaN means missing");
+    PythonWatch watch(py::none());
+    const ThreadsOf threads(settings_.threads);
+    return take_array(watch.run([&](const Watch&) { return found_.transport->gather(texels); }),
+                      {surface_->height(), surface_->width()});
+  }
+
+  /// (E₀ … E_K, the tail, evidence) at ρ = 1, E/π.
+  py::tuple bounces(int count) const {
+    if (count < 1) throw UsageError("bounces", std::to_string(count), "must be from 1 to 1000");
+    Request request = lent_request();
+    request.wanted.bounces = count;
+    Results results = run(request);
+    py::list all;
+    for (TexelVector& bounce : results.bounces) all.append(take_texels(std::move(bounce), present()));
+    return py::make_tuple(all, take_texels(std::move(results.tail), present()),
+                          evidence_text(results.evidence));
+  }
+
+  /// (E/π per channel, evidence). `varying`: arrays per channel, where `constant` is empty.
+  py::tuple solve_total(const std::vector<double>& constant, const std::vector<Array<double>>& varying,
+                        const std::optional<Array<double>>& direct) const {
+    Request request = lent_request();
+    Albedo& albedo = request.wanted.totals.emplace_back();
+    albedo.constant = constant;
+    for (const Array<double>& channel : varying) {
+      check_shape(channel, "albedo", surface_->height(), surface_->width());
+      albedo.varying.push_back(read_texels(channel));
+    }
+    if (direct) {
+      check_shape(*direct, "direct", surface_->height(), surface_->width());
+      request.wanted.direct = read_texels(*direct);
+    }
+    Results results = run(request);
+    py::list channels;
+    for (TexelVector& channel : results.totals[0])
+      channels.append(take_texels(std::move(channel), present()));
+    return py::make_tuple(channels, evidence_text(results.evidence));
+  }
+
+  /// n of every texel.
+  py::array_t<float> seen() const {
+    Request request = lent_request();
+    request.wanted.seen = true;
+    return take_map(std::move(run(request).seen));
+  }
+
+  /// Over α, then over A: one row per filled bin and bounce (-1: the tail).
+  py::list curves(int bins, int bounces) const {
+    if (bounces < 1) throw UsageError("bounces", std::to_string(bounces), "must be from 1 to 1000");
+    if (bins < 1 || bins > 10000) throw UsageError("bins", std::to_string(bins), "must be from 1 to 10000");
+    CurveSink sink(bins);
+    Request request = lent_request();
+    request.wanted.bounces = bounces;
+    request.sink = &sink;
+    const Results results = run(request);
+    py::list tables;
+    for (const BounceCurves& curves : sink.curves()) tables.append(curve_table(curves));
+    return tables;
+  }
+
+ private:
+  Request lent_request() const {
+    Request request = make_request(settings_);
+    request.transport = &found_;
+    request.checks.energy = request.checks.bounces = false;
+    return request;
+  }
+
+  Results run(Request& request) const {
+    PythonWatch watch(settings_.progress);
+    return watch.run([&](const Watch& told) {
+      request.watch = told;
+      return solve(*surface_, request);
+    });
+  }
+
+  SharedSurface surface_;
+  Settings settings_;
+  PlannedTransport found_;
+};
+
+}  // namespace
+
+void add_operator(py::module_& module) {
+  py::class_<Operator>(module, "Operator")
+      .def(py::init([](const std::shared_ptr<Surface>& surface, const Settings& settings) {
+             return std::make_unique<Operator>(surface, settings);
+           }),
+           py::arg("surface"), py::arg("settings"))
+      .def_property_readonly("direct", &Operator::direct)
+      .def_property_readonly("sky_view_factor", &Operator::sky_view_factor)
+      .def_property_readonly("ambient_occlusion", &Operator::ambient_occlusion)
+      .def("gather", &Operator::gather, py::arg("irradiance"))
+      .def("bounces", &Operator::bounces, py::arg("count"))
+      .def("solve", &Operator::solve_total, py::arg("constant"), py::arg("varying"), py::arg("direct"))
+      .def("seen", &Operator::seen)
+      .def("curves", &Operator::curves, py::arg("bins"), py::arg("bounces"));
+}
+
+}  // namespace heightlight
