@@ -92,6 +92,10 @@ struct ShaderConstants {
 /// the shader's precision.
 std::string shader_text(ShaderLanguage language, const ShaderConstants& constants);
 
+/// One of the closed forms, of the name that closed_forms() has for it, with what it is made from; for one
+/// albedo and for three. Throws UsageError for a form that is its AO, or is none.
+std::string form_shader(const std::string& name, ShaderLanguage language);
+
 /// The one function that a texture of the two channels A and n needs (kStoredPairShader).
 std::string stored_pair_shader(ShaderLanguage language);
 

@@ -19,14 +19,18 @@ bool is_in_degrees(const EsriHeader& header, double relief) {
          relief > std::max(x_extent, y_extent);
 }
 
-Spacing cell_in_metres(const EsriHeader& header) {
-  const double latitude_rad = (*header.south + header.cell_y * header.rows / 2) * std::numbers::pi / 180;
+Spacing degrees_in_metres(const Spacing& degrees, double latitude) {
+  const double latitude_rad = latitude * std::numbers::pi / 180;
   // Lengths of a degree on the WGS 84 ellipsoid as cosine series of the latitude; good to a centimetre.
   const double metres_east = 111412.84 * std::cos(latitude_rad) - 93.5 * std::cos(3 * latitude_rad) +
                              0.118 * std::cos(5 * latitude_rad);
   const double metres_north = 111132.92 - 559.82 * std::cos(2 * latitude_rad) +
                               1.175 * std::cos(4 * latitude_rad) - 0.0023 * std::cos(6 * latitude_rad);
-  return {header.cell_x * metres_east, header.cell_y * metres_north};
+  return {degrees.x * metres_east, degrees.y * metres_north};
+}
+
+Spacing cell_in_metres(const EsriHeader& header) {
+  return degrees_in_metres({header.cell_x, header.cell_y}, *header.south + header.cell_y * header.rows / 2);
 }
 
 }  // namespace heightlight

@@ -11,6 +11,9 @@ namespace heightlight {
 /// `relief` is the span of the values present.
 bool is_in_degrees(const EsriHeader& header, double relief);
 
+/// Lengths in metres of steps in degrees, east and north, at a latitude in degrees (WGS 84).
+Spacing degrees_in_metres(const Spacing& degrees, double latitude);
+
 /// Cell size in metres at the middle latitude of a grid in degrees (WGS 84).
 Spacing cell_in_metres(const EsriHeader& header);
 

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "heightlight/closed_forms.h"
+#include "base/parallel.h"
 #include "heightlight/curves.h"
 #include "heightlight/error.h"
 #include "python/arrays.h"
 #include "python/bindings.h"
+#include "python/curve_table.h"
 #include "python/python_watch.h"
 
 namespace heightlight {
@@ -60,8 +61,8 @@ class Operator {
     const TexelVector texels = read_texels(values);
     if (std::any_of(texels.begin(), texels.end(), [](double value) { return !std::isfinite(value); }))
       throw UsageError("irradiance", "", "must be finite; NaN means missing");
-    PythonWatch watch(py::none());
-    const ThreadsOf threads(settings_.threads);
+    PythonWatch watch{py::none()};
+    const ThreadScope threads(settings_.threads);
     return take_array(watch.run([&](const Watch&) { return found_.transport->gather(texels); }),
                       {surface_->height(), surface_->width()});
   }
@@ -99,6 +100,17 @@ class Operator {
     return py::make_tuple(channels, evidence_text(results.evidence));
   }
 
+  /// E/π at each of some constant albedos, found together.
+  py::tuple totals(const std::vector<double>& albedos) const {
+    Request request = lent_request();
+    for (const double albedo : albedos) request.wanted.totals.push_back({.constant = {albedo}});
+    Results results = run(request);
+    py::list found;
+    for (std::vector<TexelVector>& total : results.totals)
+      found.append(take_texels(std::move(total[0]), present()));
+    return py::make_tuple(found, evidence_text(results.evidence));
+  }
+
   /// n of every texel.
   py::array_t<float> seen() const {
     Request request = lent_request();
@@ -106,8 +118,8 @@ class Operator {
     return take_map(std::move(run(request).seen));
   }
 
-  /// Over α, then over A: one row per filled bin and bounce (-1: the tail).
-  py::list curves(int bins, int bounces) const {
+  /// Curves over α and over A, and s and the mean of n.
+  py::tuple curves(int bins, int bounces) const {
     if (bounces < 1) throw UsageError("bounces", std::to_string(bounces), "must be from 1 to 1000");
     if (bins < 1 || bins > 10000) throw UsageError("bins", std::to_string(bins), "must be from 1 to 10000");
     CurveSink sink(bins);
@@ -115,9 +127,9 @@ class Operator {
     request.wanted.bounces = bounces;
     request.sink = &sink;
     const Results results = run(request);
-    py::list tables;
-    for (const BounceCurves& curves : sink.curves()) tables.append(curve_table(curves));
-    return tables;
+    const std::vector<BounceCurves> found = sink.curves();
+    const SeenSky& seen = *results.evidence.seen;
+    return py::make_tuple(curve_table(found[0]), curve_table(found[1]), seen.expected, seen.mean);
   }
 
  private:
@@ -155,6 +167,7 @@ void add_operator(py::module_& module) {
       .def("gather", &Operator::gather, py::arg("irradiance"))
       .def("bounces", &Operator::bounces, py::arg("count"))
       .def("solve", &Operator::solve_total, py::arg("constant"), py::arg("varying"), py::arg("direct"))
+      .def("totals", &Operator::totals, py::arg("albedos"))
       .def("seen", &Operator::seen)
       .def("curves", &Operator::curves, py::arg("bins"), py::arg("bounces"));
 }

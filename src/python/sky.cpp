@@ -3,7 +3,6 @@
 #include "python/arrays.h"
 #include "python/bindings.h"
 #include "python/python_watch.h"
-#include "visibility/reach_table.h"
 
 namespace heightlight {
 namespace {

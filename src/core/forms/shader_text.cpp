@@ -5,6 +5,7 @@
 
 #include "forms/shader_literal.h"
 #include "heightlight/closed_forms.h"
+#include "heightlight/error.h"
 
 namespace heightlight {
 namespace {
@@ -84,12 +85,43 @@ const char* three_floats(ShaderLanguage language) {
   return language == ShaderLanguage::glsl ? "vec3" : "float3";
 }
 
+/// The project's own constants.
+Replacements own_constants(const SeenConstants& constants) {
+  Replacements seen = list_constants(kSeenConstants, constants);
+  seen.emplace_back("seen_albedo", shader_literal(kSeenAlbedo));
+  seen.emplace_back("blur_sigma", shader_literal(kBlurSigma));
+  return seen;
+}
+
+/// A form by itself: its functions as published, and the one for three albedos.
+struct ShadedForm {
+  std::string name;    ///< as in the list of forms
+  std::string vector;  ///< among kVectorForms; empty where it has none
+  std::string text;
+};
+
+std::vector<ShadedForm> shaded_forms() {
+  const Replacements seen = own_constants({});
+  const std::string notes = fill_in(kNotesText.shader, list_constants(kNotesConstants, NotesConstants{}));
+  const std::string bounced = fill_in(kBouncedText.shader, seen);
+  std::vector<ShadedForm> forms{
+      {kNotesText.name, "notes", notes},
+      {"notes_guarded", "notes", notes},
+      {kUniformNeighbourhoodText.name, "uniform_neighbourhood", kUniformNeighbourhoodText.shader},
+      {kCubicText.name, "cubic",
+       fill_in(kCubicText.shader, list_constants(kCubicConstants, CubicConstants{}))},
+      {kBouncedText.name, "bounced", bounced}};
+  for (const FormText* one : {&kSeenFromSkyText, &kSeenFromMapText, &kSeenFromDeepText, &kSeenFromBlurText})
+    forms.emplace_back(ShadedForm{one->name, "bounced", bounced})
+        .text.append("\n")
+        .append(fill_in(one->shader, seen));
+  return forms;
+}
+
 }  // namespace
 
 std::string shader_text(ShaderLanguage language, const ShaderConstants& constants) {
-  Replacements seen = list_constants(kSeenConstants, constants.seen);
-  seen.emplace_back("seen_albedo", shader_literal(kSeenAlbedo));
-  seen.emplace_back("blur_sigma", shader_literal(kBlurSigma));
+  const Replacements seen = own_constants(constants.seen);
   std::string text = kHead;
   const auto append = [&text](const std::string& part) { (text += part) += '\n'; };
   append(kShareShader);
@@ -108,6 +140,21 @@ std::string shader_text(ShaderLanguage language, const ShaderConstants& constant
   text += "// The same for albedos of three channels.\n";
   for (const VectorForm& one : kVectorForms) text += vector_form(one, three_floats(language));
   return text;
+}
+
+std::string form_shader(const std::string& name, ShaderLanguage language) {
+  std::string known;
+  for (const ShadedForm& form : shaded_forms()) {
+    known += (known.empty() ? "" : ", ") + form.name;
+    if (form.name != name) continue;
+    std::string text = kHead;
+    for (const std::string& part : {std::string(kShareShader), form.text}) (text += part) += '\n';
+    for (const VectorForm& one : kVectorForms) {
+      if (one.name == form.vector) text += vector_form(one, three_floats(language));
+    }
+    return text;
+  }
+  throw UsageError("form", name, "has no shader; these have: " + known);
 }
 
 std::string stored_pair_shader(ShaderLanguage language) {

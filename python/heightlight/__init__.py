@@ -1,0 +1,57 @@
+"""Ambient occlusion, form factors and light bounces over height fields.
+
+    import heightlight as hl
+
+    brick = hl.synth("brick", 256)             # or hl.read("height.png"), or any 2-D array
+    sky = hl.sky(brick)                        # found when it is asked for
+    sky.sky_view_factor                        # A, 1 = open
+    op = hl.operator(brick)                    # F, which carries light from bounce to bounce
+    total = op.solve(albedo=0.5)               # E/pi of all bounces
+    hl.forms.cubic(sky.sky_view_factor, 0.5)   # what a closed form makes of it
+
+Arrays have the shape (rows, columns), row 0 at the image's top. World axes: x right, y up the image, z out of
+it. NaN means missing, in heights and in results. Irradiance is E/pi: 1 where nothing is occluded under a sky
+of radiance 1.
+"""
+
+from . import forms
+from ._baking import Bake, bake, maps
+from ._comparing import Comparison, compare
+from ._dataset import Dataset, Run, dataset, fit
+from ._heights import Heightmap, read, read_sky, shapes, synth
+from ._judging import Judgement, judge
+from ._native import version as __version__
+from ._operator import Curves, Operator, operator
+from ._sky import Sky, sky
+from .forms import shader
+
+__all__ = [
+    "Bake",
+    "Comparison",
+    "Curves",
+    "Dataset",
+    "Heightmap",
+    "Judgement",
+    "Operator",
+    "Run",
+    "Sky",
+    "bake",
+    "compare",
+    "dataset",
+    "fit",
+    "forms",
+    "judge",
+    "maps",
+    "operator",
+    "read",
+    "read_sky",
+    "shader",
+    "shapes",
+    "sky",
+    "synth",
+]
+
+try:
+    from . import _xarray  # noqa: F401  registers the accessor where xarray is installed
+except ImportError:
+    pass

@@ -1,0 +1,87 @@
+"""Material maps."""
+
+from __future__ import annotations
+
+import json
+import os
+from typing import Any, Iterable, Optional, Union
+
+import numpy as np
+
+from . import _native
+from ._heights import HeightLike, surface_of
+from ._operator import split_albedo
+from ._settings import integer, reach_of, settings
+
+
+class Bake(dict):
+    """Maps by name, float32 arrays: (rows, columns), or (rows, columns, channels). `evidence` says how they were
+    found and what they err by."""
+
+    def __init__(self, native: Any, names: Iterable[str]) -> None:
+        super().__init__({name: native.map(name) for name in names})
+        self._native = native
+
+    @property
+    def evidence(self) -> dict[str, Any]:
+        return json.loads(self._native.evidence)
+
+    def save(
+        self,
+        folder: Union[str, os.PathLike],
+        name: str = "material",
+        *,
+        format: str = "png",
+        depth: Union[int, str, None] = None,
+    ) -> list[str]:
+        """Writes the maps as `heightlight bake` does, with NAME_bake.json beside them; all or none. Names of the
+        files are returned. `depth`: 8, 16, "half" or "float"; 16 of PNG and float of others where None."""
+        return self._native.save(os.fspath(folder), str(name), str(format), "" if depth is None else str(depth))
+
+
+def maps() -> dict[str, str]:
+    """What `bake` can make: name and description."""
+    return _native.material_maps()
+
+
+def bake(
+    height: HeightLike,
+    maps: Union[str, Iterable[str]] = ("ao",),
+    *,
+    texel: Any = None,
+    boundary: Optional[str] = None,
+    albedo: Any = 0.5,
+    error: float = 2e-3,
+    azimuths: Optional[int] = None,
+    reach: Optional[float] = None,
+    falloff: str = "none",
+    uniform_ao: bool = False,
+    y_down: bool = False,
+    horizon_azimuths: int = 4,
+    seed: int = 1,
+    threads: Optional[int] = None,
+    memory: Optional[int] = None,
+    progress: Any = False,
+) -> Bake:
+    """Maps of a material: "ao", "multibounce", "bent-normal", "bent-cone", "normal", "ao-n", "horizon", "sh",
+    "height" (`maps()` says what each is), found together.
+
+    `albedo` is of multibounce: one number or three. `uniform_ao`: α in place of A. `y_down`: vectors as Direct3D
+    has them. Other arguments as those of `sky()`.
+    """
+    names = [maps] if isinstance(maps, str) else [str(name) for name in maps]
+    surface, _ = surface_of(height, texel, boundary)
+    constant, varying = split_albedo(albedo, (surface.height, surface.width))
+    if varying:
+        raise ValueError("albedo: must be one number, or three")
+    distance, fading = reach_of(reach, falloff)
+    choice = {
+        "albedo": constant,
+        "reach": distance,
+        "falloff": fading,
+        "uniform_ao": bool(uniform_ao),
+        "y_down": bool(y_down),
+        "horizon_azimuths": integer("horizon_azimuths", horizon_azimuths, 1, 64),
+    }
+    chosen = settings(error, azimuths, None, seed, threads, memory, progress)
+    return Bake(_native.Bake(surface, chosen, names, choice), names)

@@ -1,0 +1,169 @@
+"""Light from bounce to bounce."""
+
+from __future__ import annotations
+
+import json
+from typing import Any, Optional, Sequence, Union
+
+import numpy as np
+
+from . import _native
+from ._heights import HeightLike, numbers, surface_of
+from ._settings import integer, settings
+
+AlbedoLike = Union[float, Sequence[float], np.ndarray]
+
+
+class Curves(dict):
+    """Bounce curves over one kind of AO: columns of one length, a row per filled bin and bounce.
+
+    bin, ao_lo, ao_hi, ao_mean, count; bounce (−1: all later ones together); mean, stddev, p05, p50, p95 of E_b/π
+    at albedo 1 over the bin's texels. `kind` is "ambient_occlusion" (α) or "sky_view_factor" (A).
+    """
+
+    @property
+    def kind(self) -> str:
+        return self["kind"]
+
+    def bounce(self, number: int) -> tuple[np.ndarray, np.ndarray]:
+        """(AO, mean E_b/π) of the bins, to plot."""
+        rows = self["bounce"] == number
+        return self["ao_mean"][rows], self["mean"][rows]
+
+    def to_pandas(self) -> Any:
+        """As a pandas.DataFrame, with the kind as a column. Raises ImportError without pandas."""
+        import pandas
+
+        columns = {name: values for name, values in self.items() if isinstance(values, np.ndarray)}
+        return pandas.DataFrame({"ao_kind": self.kind, **columns})
+
+
+class Operator:
+    """F, which carries irradiance from bounce to bounce over one surface: E = direct + F ρ E.
+
+    `op @ e` is F e. Made by `operator()`; two threads may use one at once.
+    """
+
+    def __init__(self, surface: Any, chosen: Any) -> None:
+        self._surface = surface
+        self._native = _native.Operator(surface, chosen)
+        self.shape: tuple[int, int] = (surface.height, surface.width)
+        self._evidence: Optional[str] = None
+
+    @property
+    def direct(self) -> np.ndarray:
+        """E₀/π under the sky, (rows, columns) float64: A, which F complements to 1."""
+        return self._native.direct
+
+    @property
+    def sky_view_factor(self) -> np.ndarray:
+        """A, (rows, columns) float32."""
+        return self._native.sky_view_factor
+
+    @property
+    def ambient_occlusion(self) -> np.ndarray:
+        """α, (rows, columns) float32."""
+        return self._native.ambient_occlusion
+
+    @property
+    def seen(self) -> np.ndarray:
+        """n, the mean sky view factor of what each texel sees, (rows, columns) float32: with A it gives the total
+        at any albedo by `forms.seen_stored`."""
+        return self._native.seen()
+
+    @property
+    def evidence(self) -> dict[str, Any]:
+        """Of the last `solve`, `bounces`: how it was found, what it errs by against exact walks. Empty before."""
+        return json.loads(self._evidence) if self._evidence else {}
+
+    def _gather(self, irradiance: np.ndarray) -> np.ndarray:
+        gathered = self._native.gather(irradiance)
+        gathered[np.isnan(self.direct)] = np.nan
+        return gathered
+
+    def __matmul__(self, irradiance: Any) -> np.ndarray:
+        """F applied to (rows, columns), or to a stack (n, rows, columns); float64. NaN counts as 0."""
+        values = numbers("irradiance", irradiance)
+        if values.ndim == 3:
+            return np.stack([self._gather(one) for one in values]) if len(values) else np.empty(values.shape)
+        return self._gather(values)
+
+    def bounces(self, count: int = 20) -> np.ndarray:
+        """E_b/π at albedo 1, b = 0 … count: (count + 1, rows, columns) float64. At albedo ρ they are ρ^b times as
+        much; with `tail()` they sum to 1."""
+        bounces, self._tail, self._evidence = self._native.bounces(integer("bounces", count, 1, 1000))
+        return np.stack(bounces)
+
+    def solve(self, albedo: AlbedoLike, direct: Optional[np.ndarray] = None) -> np.ndarray:
+        """E/π of all bounces.
+
+        Args:
+            albedo: one number, three (red, green, blue), an array (rows, columns), or (rows, columns, 3); in [0, 1].
+            direct: E₀/π of light of one's own, (rows, columns), such as the sun's; else the sky's.
+
+        Returns (rows, columns) float64, or (rows, columns, 3) for three channels. What `simulate` writes, before
+        it becomes float32.
+        """
+        constant, varying = split_albedo(albedo, self.shape)
+        light = None if direct is None else numbers("direct", direct)
+        totals, self._evidence = self._native.solve(constant, varying, light)
+        return totals[0] if len(totals) == 1 else np.stack(totals, axis=-1)
+
+    def curves(self, bins: int = 100, bounces: int = 20) -> dict[str, Curves]:
+        """Bounce curves over α ("ambient_occlusion") and over A ("sky_view_factor")."""
+        over_alpha, over_sky, _, _ = self._native.curves(integer("bins", bins, 1, 10000), integer("bounces", bounces, 1, 1000))
+        return {"ambient_occlusion": Curves(over_alpha), "sky_view_factor": Curves(over_sky)}
+
+    def as_linear_operator(self, albedo: Optional[AlbedoLike] = None) -> Any:
+        """As a scipy.sparse.linalg.LinearOperator on rows × columns numbers, 0 where the sample is missing: F, or
+        I − F ρ where an albedo is given (one channel), whose solution of `op.direct` is `op.solve(albedo)`."""
+        from scipy.sparse.linalg import LinearOperator
+
+        size = self.shape[0] * self.shape[1]
+        if albedo is None:
+            return LinearOperator((size, size), matvec=lambda x: self._native.gather(x.reshape(self.shape)).ravel())
+        constant, varying = split_albedo(albedo, self.shape)
+        if len(constant) + len(varying) != 1:
+            raise ValueError("albedo: must have one channel")
+        reflectance = np.nan_to_num(varying[0]).ravel() if varying else constant[0]
+        return LinearOperator(
+            (size, size),
+            matvec=lambda x: x.ravel() - self._native.gather((reflectance * x.ravel()).reshape(self.shape)).ravel(),
+        )
+
+
+def split_albedo(albedo: Any, shape: tuple[int, int]) -> tuple[list[float], list[np.ndarray]]:
+    """Constants per channel, or maps per channel; the other is empty."""
+    values = numbers("albedo", albedo)
+    if values.ndim == 0:
+        return [float(values)], []
+    if values.ndim == 1 and values.shape[0] in (1, 3):
+        return [float(value) for value in values], []
+    if values.ndim == 2:
+        return [], [values]
+    if values.ndim == 3 and values.shape[2] in (1, 3):
+        return [], [np.ascontiguousarray(values[:, :, c]) for c in range(values.shape[2])]
+    rows, columns = shape
+    raise ValueError(f"albedo: must be one number, three, {rows} × {columns}, or {rows} × {columns} × 3")
+
+
+def operator(
+    height: HeightLike,
+    *,
+    texel: Any = None,
+    boundary: Optional[str] = None,
+    error: float = 2e-3,
+    azimuths: Optional[int] = None,
+    rays: Optional[int] = None,
+    seed: int = 1,
+    threads: Optional[int] = None,
+    memory: Optional[int] = None,
+    progress: Any = False,
+) -> Operator:
+    """The operator of a surface: form factors, found once, for any number of solutions.
+
+    Arguments as those of `sky()`. `error` is the RMSE wanted of A and of totals at albedos up to 0.8; with
+    horizon walks no form factor is stored, with `rays` or error = 0 all of them are.
+    """
+    surface, _ = surface_of(height, texel, boundary)
+    return Operator(surface, settings(error, azimuths, rays, seed, threads, memory, progress))

@@ -1,0 +1,118 @@
+"""What texels see of the sky."""
+
+from __future__ import annotations
+
+import json
+from typing import Any, Optional, Sequence, Union
+
+import numpy as np
+
+from . import _native
+from ._heights import HeightLike, surface_of
+from ._settings import reach_of, real, settings
+
+
+class Sky:
+    """What `sky()` returns. Each quantity is found when it is first asked for, and kept."""
+
+    def __init__(self, surface: Any, chosen: Any, reach: Optional[float], falloff: str) -> None:
+        self._surface = surface
+        self._settings = chosen
+        self._reach = (reach, falloff)
+        self._shares: Optional[dict[str, Any]] = None
+        self._moments: Optional[dict[str, Any]] = None
+
+    def _found(self) -> dict[str, Any]:
+        if self._shares is None:
+            self._shares = _native.sky(self._surface, self._settings, False, *self._reach)
+        return self._shares
+
+    def _found_moments(self) -> dict[str, Any]:
+        if self._moments is None:
+            self._moments = _native.sky(self._surface, self._settings, True, *self._reach)
+        return self._moments
+
+    @property
+    def sky_view_factor(self) -> np.ndarray:
+        """A = (1/π) ∫ V cosθ dω, (rows, columns) float32 in [0, 1]; 1 = open. GTAO's AO."""
+        return self._found()["sky_view_factor"]
+
+    @property
+    def ambient_occlusion(self) -> np.ndarray:
+        """α = (1/2π) ∫ V dω, (rows, columns) float32 in [0, 1]; 1 = open. The study notes' AO."""
+        return self._found()["ambient_occlusion"]
+
+    @property
+    def bent_normal(self) -> np.ndarray:
+        """Unit vectors along ∫ V ω cosθ dω, (rows, columns, 3) float32; the normal where no sky is seen."""
+        return self._found_moments()["bent_normal"]
+
+    @property
+    def moments(self) -> tuple[np.ndarray, np.ndarray]:
+        """(1/π) ∫ V f(ω) cosθ dω: of f = ω, (rows, columns, 3), and of x² − y², xy, z², xz, yz, (rows, columns,
+        5); float32. Spherical harmonics of order 2 follow from them and A."""
+        found = self._found_moments()
+        return found["first"], found["second"]
+
+    def horizons(self, azimuths: Union[int, Sequence[float]]) -> np.ndarray:
+        """Elevations of the horizon, rad, at least those of the tangent plane: (azimuths, rows, columns) float32.
+
+        `azimuths`: how many, at 2π k/N; or the angles themselves, rad. They count from x toward y.
+        """
+        if np.ndim(azimuths) == 0:
+            count = int(azimuths)  # type: ignore[call-overload]
+            if not 1 <= count <= 65536:
+                raise ValueError(f"azimuths {count}: must be from 1 to 65536")
+            angles = [2 * np.pi * k / count for k in range(count)]
+        else:
+            angles = [real("azimuths", angle) for angle in azimuths]  # type: ignore[union-attr]
+        if not angles or not np.all(np.isfinite(angles)):
+            raise ValueError("azimuths: must be finite angles, at least one")
+        return _native.horizons(self._surface, self._settings, angles, *self._reach)["horizons"]
+
+    @property
+    def evidence(self) -> dict[str, Any]:
+        """How A was found, what it errs by against exact walks, and what that cost."""
+        found = self._moments if self._shares is None and self._moments is not None else self._found()
+        return json.loads(found["evidence"])
+
+
+def sky(
+    height: HeightLike,
+    *,
+    texel: Any = None,
+    boundary: Optional[str] = None,
+    error: float = 1e-3,
+    azimuths: Optional[int] = None,
+    rays: Optional[int] = None,
+    reach: Optional[float] = None,
+    falloff: str = "none",
+    seed: int = 1,
+    threads: Optional[int] = None,
+    memory: Optional[int] = None,
+    progress: Any = False,
+) -> Sky:
+    """What every texel sees of the sky, found when it is asked for.
+
+    Args:
+        height: (rows, columns) of numbers, world units, row 0 on top; NaN is missing. Or a Heightmap.
+        texel: distance between samples, world units: one number or (x, y). Without it the columns span 1.
+        boundary: "tile" or "open"; a Heightmap's own, else "tile".
+        error: RMSE wanted of A; 0: exact slices, far slower.
+        azimuths: of the walk, an even number; chosen for the error where it is None.
+        rays: by so many rays per texel, the reference, in place of horizon walks.
+        reach: occluders count up to this distance, world units; `falloff` ("none", "linear", "sqrt",
+            "exponential") says how they fade toward it.
+        seed: of every random choice. threads: as many as there are processors where None; results do not
+            depend on it. memory: bytes that may be taken.
+        progress: True shows bars where tqdm is installed; or a function of (name, done, total, ended).
+
+    Raises:
+        ValueError: for what makes no sense. MemoryError: for what memory does not hold, before it is taken.
+
+    Ambient occlusion: Jimenez, Wu, Pesce and Jarabo, "Practical Realtime Strategies for Accurate Indirect
+    Occlusion" (2016), whose AO is A.
+    """
+    surface, _ = surface_of(height, texel, boundary)
+    chosen = settings(error, azimuths, rays, seed, threads, memory, progress)
+    return Sky(surface, chosen, *reach_of(reach, falloff))

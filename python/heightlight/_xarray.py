@@ -1,0 +1,128 @@
+"""The accessor `DataArray.heightlight`, where xarray is installed."""
+
+from __future__ import annotations
+
+from typing import Any, Optional
+
+import numpy as np
+import xarray as xr
+
+from . import _native
+from ._heights import Heightmap
+from ._operator import operator
+from ._sky import sky
+
+_DEGREES = ("degree", "degrees", "degrees_north", "degrees_east", "degree_north", "degree_east", "deg")
+
+
+@xr.register_dataarray_accessor("heightlight")
+class HeightlightAccessor:
+    """Light on a terrain, `da.heightlight`: spacing from its coordinates, which results keep with its attributes
+    and its CRS.
+
+    The last two dimensions are rows (y) and columns (x), in metres, evenly spaced. Coordinates in degrees are
+    refused: reproject first, or give `texel` in metres. The boundary is "open" unless said otherwise. Samples
+    equal to the declared no-data are missing.
+    """
+
+    def __init__(self, array: xr.DataArray) -> None:
+        self._array = array
+
+    def heightmap(self, texel: Any = None, boundary: str = "open") -> Heightmap:
+        """The heights, row 0 on top whichever way y runs, with their spacing."""
+        array = self._array
+        if array.ndim != 2:
+            raise ValueError(f"height: has the dimensions {', '.join(map(str, array.dims))}, and must have two; choose a band")
+        heights = np.array(array.values, dtype=np.float64)
+        missing = array.attrs.get("_FillValue", array.encoding.get("_FillValue"))
+        if missing is not None:
+            heights[heights == missing] = np.nan
+        x, y = self._steps(texel)
+        if y > 0:  # rows go up
+            heights = heights[::-1]
+        if x < 0:
+            heights = heights[:, ::-1]
+        spacing = (abs(x), abs(y)) if texel is None else texel
+        return Heightmap(heights, spacing, boundary)
+
+    def sky_view_factor(self, *, texel: Any = None, boundary: str = "open", **options: Any) -> xr.DataArray:
+        """A, 1 = open. Options as those of `heightlight.sky`."""
+        found = sky(self.heightmap(texel, boundary), **options)
+        return self._like(found.sky_view_factor, "sky_view_factor", "sky view factor", texel)
+
+    def ambient_occlusion(self, *, texel: Any = None, boundary: str = "open", **options: Any) -> xr.DataArray:
+        """α, the plain share of the hemisphere, 1 = open."""
+        found = sky(self.heightmap(texel, boundary), **options)
+        return self._like(found.ambient_occlusion, "ambient_occlusion", "share of the hemisphere that sees the sky", texel)
+
+    def horizons(self, azimuths: Any, *, texel: Any = None, boundary: str = "open", **options: Any) -> xr.DataArray:
+        """Elevations of the horizon, rad, with the dimension `azimuth`, rad, counted from x toward y."""
+        angles = [2 * np.pi * k / azimuths for k in range(azimuths)] if np.ndim(azimuths) == 0 else list(azimuths)
+        found = sky(self.heightmap(texel, boundary), **options).horizons(angles)
+        maps = [self._like(one, "horizon", "elevation of the horizon", texel, "rad") for one in found]
+        return xr.concat(maps, xr.Variable("azimuth", angles, {"units": "rad"}))
+
+    def irradiance(
+        self, albedo: Any = 0.2, *, direct: Optional[Any] = None, texel: Any = None, boundary: str = "open", **options: Any
+    ) -> xr.DataArray:
+        """E/π of all bounces, 1 = a level open plane under a sky of radiance 1. `albedo`: a number, or an array of
+        the map's shape. `direct`: E₀/π of light of one's own."""
+        op = operator(self.heightmap(texel, boundary), **options)
+        reflectance = albedo if np.ndim(albedo) == 0 else self._turn(np.asarray(albedo), texel)
+        light = None if direct is None else self._turn(np.asarray(direct), texel)
+        total = op.solve(reflectance, light)
+        return self._like(total, "irradiance", "irradiance of all bounces over that of an open plane", texel)
+
+    def _coordinates(self, axis: int) -> np.ndarray:
+        name = self._array.dims[axis]
+        if name not in self._array.coords:
+            raise ValueError(f"the dimension {name} has no coordinates to take the spacing from; give texel")
+        values = np.asarray(self._array.coords[name].values, dtype=np.float64)
+        if values.size < 2:
+            raise ValueError(f"the dimension {name} has one sample, and no spacing; give texel")
+        steps = np.diff(values)
+        if not np.allclose(steps, steps.mean(), rtol=1e-3, atol=0):
+            raise ValueError(f"the coordinates {name} are not evenly spaced; resample, or give texel")
+        return values
+
+    def _in_degrees(self) -> bool:
+        coords = [self._array.coords[dim] for dim in self._array.dims if dim in self._array.coords]
+        if any(str(coordinate.attrs.get("units", "")).lower() in _DEGREES for coordinate in coords):
+            return True
+        grid = self._array.coords.get("spatial_ref")
+        text = "" if grid is None else str(grid.attrs.get("crs_wkt", ""))
+        return text.startswith(("GEOGCS", "GEOGCRS", "GEODCRS"))
+
+    def _steps(self, texel: Any) -> tuple[float, float]:
+        """Along x and y; with their signs, which say which way the axes run."""
+        if texel is not None:
+            signs = []
+            for axis in (1, 0):
+                values = self._array.coords.get(self._array.dims[axis])
+                rising = values is None or values.size < 2 or float(values[1]) > float(values[0])
+                signs.append(1.0 if rising else -1.0)
+            if self._array.dims[0] not in self._array.coords:
+                signs[1] = -1.0
+            return signs[0], signs[1]
+        x, y = self._coordinates(1), self._coordinates(0)
+        step_x, step_y = float(np.diff(x).mean()), float(np.diff(y).mean())
+        if self._in_degrees():
+            metres = _native.metres_of_degrees(abs(step_x), abs(step_y), float(y.mean()))
+            raise ValueError(
+                "the coordinates are in degrees, which are no lengths; reproject to metres, or give "
+                f"texel=({metres[0]:.6g}, {metres[1]:.6g}), in metres at the middle of the map"
+            )
+        return step_x, step_y
+
+    def _turn(self, values: np.ndarray, texel: Any) -> np.ndarray:
+        x, y = self._steps(texel)
+        return values[:: -1 if y > 0 else 1, :: -1 if x < 0 else 1]
+
+    def _like(self, values: np.ndarray, name: str, meaning: str, texel: Any, units: str = "1") -> xr.DataArray:
+        result = self._array.copy(data=self._turn(values, texel))
+        result.name = name
+        for key in ("_FillValue", "scale_factor", "add_offset"):
+            result.attrs.pop(key, None)
+            result.encoding.pop(key, None)
+        result.attrs.update(long_name=meaning, units=units)
+        return result
