@@ -34,6 +34,13 @@ std::string evidence_text(const Evidence& evidence) {
 
 namespace {
 
+/// At once, and not when something is found by them.
+void check_settings(const Settings& settings) {
+  const Request request = make_request(settings);
+  if (settings.azimuths > 0) check_azimuths(settings.azimuths);
+  if (settings.rays > 0) check_ray_options({.rays = request.accuracy.rays});
+}
+
 /// What heightlight throws, as Python knows it: ValueError for what makes no sense, MemoryError for what does
 /// not fit, OSError for files. Messages name quantities, which are called as arguments here are.
 void translate(std::exception_ptr thrown) {
@@ -62,7 +69,9 @@ PYBIND11_MODULE(_native, module) {
   py::class_<Settings>(module, "Settings")
       .def(py::init([](double error, int azimuths, int rays, std::uint64_t seed, int threads,
                        std::uint64_t memory, py::object progress) {
-             return Settings{error, azimuths, rays, seed, threads, memory, std::move(progress)};
+             Settings settings{error, azimuths, rays, seed, threads, memory, std::move(progress)};
+             check_settings(settings);
+             return settings;
            }),
            py::kw_only(), py::arg("error"), py::arg("azimuths"), py::arg("rays"), py::arg("seed"),
            py::arg("threads"), py::arg("memory"), py::arg("progress"));

@@ -44,8 +44,7 @@ class Operator {
       : surface_(std::move(surface)), settings_(std::move(settings)) {
     Request request = make_request(settings_);
     PythonWatch watch(settings_.progress);
-    // The operator outlives this call and its watch.
-    request.watch = PythonWatch::of_this_thread();
+    request.watch = watch.for_longer();
     found_ = watch.run([&](const Watch&) { return find_operator(*surface_, request); });
   }
 

@@ -19,8 +19,17 @@ PythonWatch::PythonWatch(py::object progress) : progress_(std::move(progress)) {
 PythonWatch::Caller::Caller(PythonWatch& watch) { working_under = &watch; }
 PythonWatch::Caller::~Caller() { working_under = nullptr; }
 
-Watch PythonWatch::of_this_thread() {
-  return {.tell = {}, .stopped = [] { return working_under && working_under->stopped(); }};
+Watch PythonWatch::for_longer() {
+  Watch watch;
+  watch.stopped = [self = self_] {
+    PythonWatch* const working = *self ? self->load() : working_under;
+    return working && working->stopped();
+  };
+  if (progress_.is_none()) return watch;
+  watch.tell = [self = self_](const Step& step) {
+    if (PythonWatch* const working = *self) working->tell(step);
+  };
+  return watch;
 }
 
 Watch PythonWatch::watch() {

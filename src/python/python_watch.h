@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <memory>
 #include <thread>
 
 #include "heightlight/error.h"
@@ -20,6 +21,7 @@ class PythonWatch {
  public:
   /// `progress(name, done, total, ended)`, or None.
   explicit PythonWatch(py::object progress);
+  ~PythonWatch() { *self_ = nullptr; }
   PythonWatch(const PythonWatch&) = delete;
   PythonWatch& operator=(const PythonWatch&) = delete;
 
@@ -37,8 +39,9 @@ class PythonWatch {
     }
   }
 
-  /// For what outlives a call, such as an operator: it asks the watch under which this thread works now.
-  static Watch of_this_thread();
+  /// For what is made in a call and outlives it, such as an operator: until this watch ends it is this one's,
+  /// and afterwards it asks the watch under which the thread works that asks.
+  Watch for_longer();
 
  private:
   /// Says whose watch this thread works under.
@@ -61,6 +64,8 @@ class PythonWatch {
   std::chrono::steady_clock::time_point asked_ = std::chrono::steady_clock::now();  ///< of the caller alone
   std::chrono::steady_clock::time_point told_ = asked_;  ///< of whoever tells, one at a time
   std::atomic<bool> stopped_{false};
+  /// Where what outlives this watch finds it; null once it has ended.
+  std::shared_ptr<std::atomic<PythonWatch*>> self_ = std::make_shared<std::atomic<PythonWatch*>>(this);
   py::object type_, value_, trace_;  ///< of what was raised first
 };
 
