@@ -81,7 +81,7 @@ def dataset(
     """Bounce curves of maps, by name or in order; each as it is, or once per relief share (peak to valley over the
     width). Maps whose names begin alike are one material, and are left out together by `fit`."""
     named = maps if isinstance(maps, Mapping) else {f"map{i}": map for i, map in enumerate(maps)}
-    shares = [None] if relief_shares is None else [real("relief_shares", share) for share in relief_shares]
+    shares: list[Optional[float]] = [None] if relief_shares is None else [real("relief_shares", share) for share in relief_shares]
     if any(share is not None and not (0 < share < np.inf) for share in shares):
         raise ValueError("relief_shares: must be positive and finite")
     runs = Dataset()

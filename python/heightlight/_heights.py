@@ -42,7 +42,8 @@ class Heightmap:
 
     @property
     def shape(self) -> tuple[int, int]:
-        return self.height.shape
+        rows, columns = self.height.shape
+        return rows, columns
 
     def __array__(self, dtype: Any = None) -> np.ndarray:
         return self.height if dtype is None else self.height.astype(dtype)
@@ -60,7 +61,7 @@ def numbers(name: str, values: Any) -> np.ndarray:
     """float32 stays as it lies, all else becomes float64; masked samples are NaN. Raises ValueError for what are
     no real numbers."""
     if isinstance(values, np.ma.MaskedArray):
-        values = values.astype(np.float64).filled(np.nan)
+        values = np.ma.filled(values.astype(np.float64), np.nan)
     try:
         array = np.asarray(values)
     except ValueError:

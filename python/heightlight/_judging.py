@@ -123,7 +123,7 @@ def _solve(name: str, height: HeightLike, wanted: Iterable[str], albedos: list[f
     )
 
 
-def _evaluate(form: _Signature, map: _Map, albedos: list[float], constants: Sequence[float]) -> np.ndarray:
+def _evaluate(form: _Signature, map: _Map, albedos: list[float], constants: Iterable[float]) -> np.ndarray:
     """albedos × texels."""
     values = []
     for albedo in albedos:

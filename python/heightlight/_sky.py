@@ -9,7 +9,7 @@ import numpy as np
 
 from . import _native
 from ._heights import HeightLike, surface_of
-from ._settings import reach_of, real, settings
+from ._settings import integer, reach_of, real, settings
 
 
 class Sky:
@@ -59,13 +59,7 @@ class Sky:
 
         `azimuths`: how many, at 2π k/N; or the angles themselves, rad. They count from x toward y.
         """
-        if np.ndim(azimuths) == 0:
-            count = int(azimuths)  # type: ignore[call-overload]
-            if not 1 <= count <= 65536:
-                raise ValueError(f"azimuths {count}: must be from 1 to 65536")
-            angles = [2 * np.pi * k / count for k in range(count)]
-        else:
-            angles = [real("azimuths", angle) for angle in azimuths]  # type: ignore[union-attr]
+        angles = angles_of(azimuths)
         if not angles or not np.all(np.isfinite(angles)):
             raise ValueError("azimuths: must be finite angles, at least one")
         return _native.horizons(self._surface, self._settings, angles, *self._reach)["horizons"]
@@ -75,6 +69,14 @@ class Sky:
         """How A was found, what it errs by against exact walks, and what that cost."""
         found = self._moments if self._shares is None and self._moments is not None else self._found()
         return json.loads(found["evidence"])
+
+
+def angles_of(azimuths: Any) -> list[float]:
+    """So many at 2π k/N, or those given, rad."""
+    if np.ndim(azimuths) == 0:
+        count = integer("azimuths", azimuths, 1, 65536)
+        return [2 * np.pi * k / count for k in range(count)]
+    return [real("azimuths", angle) for angle in azimuths]
 
 
 def sky(

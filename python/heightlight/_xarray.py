@@ -10,7 +10,7 @@ import xarray as xr
 from . import _native
 from ._heights import Heightmap
 from ._operator import operator
-from ._sky import sky
+from ._sky import angles_of, sky
 
 _DEGREES = ("degree", "degrees", "degrees_north", "degrees_east", "degree_north", "degree_east", "deg")
 
@@ -57,7 +57,7 @@ class HeightlightAccessor:
 
     def horizons(self, azimuths: Any, *, texel: Any = None, boundary: str = "open", **options: Any) -> xr.DataArray:
         """Elevations of the horizon, rad, with the dimension `azimuth`, rad, counted from x toward y."""
-        angles = [2 * np.pi * k / azimuths for k in range(azimuths)] if np.ndim(azimuths) == 0 else list(azimuths)
+        angles = angles_of(azimuths)
         found = sky(self.heightmap(texel, boundary), **options).horizons(angles)
         maps = [self._like(one, "horizon", "elevation of the horizon", texel, "rad") for one in found]
         return xr.concat(maps, xr.Variable("azimuth", angles, {"units": "rad"}))
