@@ -90,8 +90,8 @@ class Operator:
 
     def bounces(self, count: int = 20) -> np.ndarray:
         """E_b/π at albedo 1, b = 0 … count: (count + 1, rows, columns) float64. At albedo ρ they are ρ^b times as
-        much; with `tail()` they sum to 1."""
-        bounces, self._tail, self._evidence = self._native.bounces(integer("bounces", count, 1, 1000))
+        much. What their sum leaves of 1 is what all later ones bring."""
+        bounces, _, self._evidence = self._native.bounces(integer("bounces", count, 1, 1000))
         return np.stack(bounces)
 
     def solve(self, albedo: AlbedoLike, direct: Optional[np.ndarray] = None) -> np.ndarray:

@@ -85,13 +85,22 @@ class HeightlightAccessor:
             raise ValueError(f"the coordinates {name} are not evenly spaced; resample, or give texel")
         return values
 
-    def _in_degrees(self) -> bool:
-        coords = [self._array.coords[dim] for dim in self._array.dims if dim in self._array.coords]
-        if any(str(coordinate.attrs.get("units", "")).lower() in _DEGREES for coordinate in coords):
-            return True
+    def _crs(self) -> str:
         grid = self._array.coords.get("spatial_ref")
-        text = "" if grid is None else str(grid.attrs.get("crs_wkt", ""))
-        return text.startswith(("GEOGCS", "GEOGCRS", "GEODCRS"))
+        return "" if grid is None else str(grid.attrs.get("crs_wkt", ""))
+
+    def _units(self) -> list[str]:
+        coords = [self._array.coords[dim] for dim in self._array.dims if dim in self._array.coords]
+        return [str(coordinate.attrs.get("units", "")).lower() for coordinate in coords]
+
+    def _in_degrees(self) -> bool:
+        in_crs = self._crs().startswith(("GEOGCS", "GEOGCRS", "GEODCRS"))
+        return in_crs or any(units in _DEGREES for units in self._units())
+
+    def _counts_samples(self, x: np.ndarray, y: np.ndarray) -> bool:
+        """As rioxarray numbers the pixels of a file that has no place on earth."""
+        numbered = all(np.array_equal(values, np.arange(values.size) + 0.5) for values in (x, y))
+        return numbered and not self._crs() and not any(self._units())
 
     def _steps(self, texel: Any) -> tuple[float, float]:
         """Along x and y; with their signs, which say which way the axes run."""
@@ -105,6 +114,8 @@ class HeightlightAccessor:
                 signs[1] = -1.0
             return signs[0], signs[1]
         x, y = self._coordinates(1), self._coordinates(0)
+        if self._counts_samples(x, y):
+            raise ValueError("the coordinates count samples, and are no lengths; give texel, in metres")
         step_x, step_y = float(np.diff(x).mean()), float(np.diff(y).mean())
         if self._in_degrees():
             metres = _native.metres_of_degrees(abs(step_x), abs(step_y), float(y.mean()))

@@ -72,6 +72,9 @@ def test_coordinates_must_tell_a_spacing():
     array = terrain()
     with pytest.raises(ValueError, match="not evenly spaced"):
         array.assign_coords(x=np.arange(24) ** 2).heightlight.sky_view_factor()
+    numbered = array.assign_coords(x=np.arange(24) + 0.5, y=np.arange(24) + 0.5)
+    with pytest.raises(ValueError, match="count samples"):
+        numbered.heightlight.sky_view_factor()
     with pytest.raises(ValueError, match="no coordinates"):
         array.drop_vars("x").heightlight.sky_view_factor()
     with pytest.raises(ValueError, match="two; choose a band"):
