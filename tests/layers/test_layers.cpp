@@ -16,7 +16,7 @@ namespace {
 using Names = std::set<std::string>;
 
 const Names kCore = {"base",   "heightmap", "surface", "visibility", "transport",
-                     "curves", "forms",     "solve",   "screenspace"};
+                     "curves", "forms",     "solve",   "skylight",   "screenspace"};
 
 Names with(Names names, const Names& more) {
   names.insert(more.begin(), more.end());
@@ -24,7 +24,7 @@ Names with(Names names, const Names& more) {
 }
 
 /// The layers that a layer may include beside itself: first those of src/core, which know nothing of files,
-/// then src/files, those of src/studies, and src/cli.
+/// then src/files, those of src/studies, and src/cli and src/python, which know nothing of each other.
 const std::map<std::string, Names> kMayInclude = {
     {"base", {}},
     {"heightmap", {"base"}},
@@ -34,7 +34,8 @@ const std::map<std::string, Names> kMayInclude = {
     {"curves", {"base", "heightmap"}},
     {"forms", {"base", "heightmap", "surface", "curves"}},
     {"solve", {"base", "heightmap", "surface", "visibility", "transport", "forms"}},
-    {"screenspace", {"base", "heightmap", "surface"}},
+    {"skylight", {"base", "heightmap", "surface", "visibility"}},
+    {"screenspace", {"base", "heightmap", "surface", "skylight"}},
     {"files", kCore},
     {"relief", kCore},
     {"expression", with(kCore, {"files"})},
@@ -44,9 +45,10 @@ const std::map<std::string, Names> kMayInclude = {
     {"bake", with(kCore, {"files"})},
     {"plot", with(kCore, {"files", "expression", "user_form", "relief", "fit", "comparison"})},
     {"cli", with(kCore, {"files", "expression", "user_form", "relief", "fit", "comparison", "bake", "plot"})},
+    {"python", with(kCore, {"files", "expression", "user_form", "fit", "comparison", "bake"})},
 };
 
-/// The folders of src/ that hold layers; `cli` and `files` are layers themselves.
+/// The folders of src/ that hold layers; `cli`, `python` and `files` are layers themselves.
 const std::vector<std::string> kGroups = {"core/", "studies/"};
 
 const std::map<std::string, std::string> kLayerOfPublicHeader = {
@@ -58,7 +60,7 @@ const std::map<std::string, std::string> kLayerOfPublicHeader = {
     {"forms.h", "base"},  // formulas alone, for everybody
     {"closed_forms.h", "forms"},  {"evidence.h", "solve"},
     {"solve.h", "solve"},         {"screenspace.h", "screenspace"},
-    {"files.h", "files"},
+    {"sky_light.h", "skylight"},  {"files.h", "files"},
 };
 
 const Names kCommands = {"fit", "comparison", "bake", "plot", "cli"};
@@ -71,6 +73,7 @@ const std::map<std::string, Names> kUsers = {
     {"openssl/", {"files"}},
     {"gnuplot-iostream", {"plot"}},
     {"CLI/", {"cli"}},
+    {"pybind11/", {"python"}},
     {"nlohmann/", with(kCommands, {"files"})},
     {"fmt/", with(kCommands, {"files"})},
     {"hwy/", {"base", "visibility", "transport", "screenspace"}},
