@@ -31,7 +31,7 @@ for name in ("direct", "cubic", "uniform_neighbourhood", "notes_guarded", "seen_
     print(f"{name}: RMSE {other.rmse:.4f}, bias {other.bias:+.4f}")
 print(f"(light transport itself errs by {judged.reference_rmse:.4f})")
 
-curves = hl.operator(maps["brick"]).curves()["ambient_occlusion"]
+curves = hl.operator(maps["brick"]).curves()
 figure, (left, right) = plt.subplots(1, 2, figsize=(12, 4.5), layout="constrained")
 for bounce in (0, 1, 2, 4, 8, 16):
     ao, mean = curves.bounce(bounce)

@@ -16,17 +16,16 @@ from ._heights import Heightmap, HeightLike
 from ._operator import Curves, operator
 from ._settings import integer, real, settings
 
-_COLUMNS = ("bin", "ao_lo", "ao_hi", "ao_mean", "count", "bounce", "mean", "stddev", "p05", "p50", "p95")
+_COLUMNS = ("ao_kind", "bin", "ao_lo", "ao_hi", "ao_mean", "count", "bounce", "mean", "stddev", "p05", "p50", "p95")
 
 
 @dataclass
 class Run:
-    """One map at one relief: its curves, and what its sky says of n."""
+    """One map at one relief: its curves, and what its sky says of n (s, and n's mean as the first bounce has it)."""
 
     name: str
     material: str
-    over_alpha: Curves
-    over_sky: Curves
+    curves: Curves
     expected_seen: Optional[float] = None
     measured_seen: Optional[float] = None
 
@@ -40,24 +39,22 @@ class Dataset(list):
 
         frames = []
         for run in self:
-            for curves in (run.over_alpha, run.over_sky):
-                frame = curves.to_pandas()
-                frame.insert(0, "map", run.material)
-                frame.insert(0, "run", run.name)
-                frames.append(frame)
+            frame = run.curves.to_pandas()
+            frame.insert(0, "map", run.material)
+            frame.insert(0, "run", run.name)
+            frames.append(frame)
         return pandas.concat(frames, ignore_index=True)
 
     def save(self, path: Union[str, os.PathLike]) -> None:
         """As the dataset.csv that `heightlight fit` reads: without what comes after the last bounce."""
         with open(path, "w", newline="", encoding="utf-8") as file:
             table = csv.writer(file, lineterminator="\n")
-            table.writerow(("run", "map", "ao_kind", *_COLUMNS))
+            table.writerow(("run", "map", *_COLUMNS))
             for run in self:
-                for curves in (run.over_alpha, run.over_sky):
-                    columns = [curves[name].tolist() for name in _COLUMNS]
-                    for row in zip(*columns):
-                        if row[_COLUMNS.index("bounce")] >= 0:
-                            table.writerow((run.name, run.material, curves.kind, *map(repr, row)))
+                columns = [run.curves[name].tolist() for name in _COLUMNS]
+                for row in zip(*columns):
+                    if row[_COLUMNS.index("bounce")] >= 0:
+                        table.writerow((run.name, run.material, *row))
 
 
 def _material(name: str) -> str:
@@ -92,15 +89,12 @@ def dataset(
             op = operator(
                 height, boundary=boundary, error=error, seed=seed, threads=threads, memory=memory, progress=progress
             )
-            alpha, sky, expected, measured = op._native.curves(
-                integer("bins", bins, 1, 10000), integer("bounces", bounces, 2, 1000)
-            )
+            alpha, sky, expected, measured = op._curves(bins, integer("bounces", bounces, 2, 1000))
             runs.append(
                 Run(
                     name=name if share is None else f"{name}_relief{share:g}",
                     material=_material(name),
-                    over_alpha=Curves(alpha),
-                    over_sky=Curves(sky),
+                    curves=Curves((alpha, sky)),
                     expected_seen=expected,
                     measured_seen=measured,
                 )
@@ -131,8 +125,8 @@ def fit(
         {
             "name": run.name,
             "material": run.material,
-            "over_alpha": dict(run.over_alpha),
-            "over_sky": dict(run.over_sky),
+            "over_alpha": run.curves.over("ambient_occlusion"),
+            "over_sky": run.curves.over("sky_view_factor"),
             "expected_seen": run.expected_seen,
             "measured_seen": run.measured_seen,
         }

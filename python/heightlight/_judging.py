@@ -26,7 +26,8 @@ class Judgement:
     Attributes:
         rmse, bias: over all maps, which count alike, and albedos.
         by_albedo: {albedo: rmse}. by_map: {name: rmse}.
-        by_ao: columns ao, rmse, bias, count, per filled bin of the form's AO.
+        by_ao: per filled bin of the form's AO: ao and count, and rmse and bias by albedo, (albedos, bins). Empty for
+            a form of neither AO.
         constants: fitted to all maps; empty where the form has none.
         left_out: rmse where each material is judged by constants that were fitted to the others; None without
             constants, or with one material.
@@ -207,6 +208,13 @@ def judge(
     )
 
 
+def _mean(values: np.ndarray) -> np.ndarray:
+    """Along rows, of what is finite; NaN where nothing is."""
+    finite = np.isfinite(values)
+    sums = np.where(finite, values, 0).sum(axis=1)
+    return np.where(finite.any(axis=1), sums / np.maximum(finite.sum(axis=1), 1), np.nan)
+
+
 def _by_ao(form: _Signature, maps: Sequence[_Map], errors: Sequence[np.ndarray], bins: int) -> dict[str, np.ndarray]:
     kind = "A" if "A" in form.inputs else "alpha" if "alpha" in form.inputs else None
     if kind is None:
@@ -218,8 +226,8 @@ def _by_ao(form: _Signature, maps: Sequence[_Map], errors: Sequence[np.ndarray],
     parts = [every[:, bin_of == one] for one in filled]
     return {
         "ao": np.array([ao[bin_of == one].mean() for one in filled]),
-        "rmse": np.array([np.sqrt(np.nanmean(part**2)) if np.isfinite(part).any() else np.nan for part in parts]),
-        "bias": np.array([np.nanmean(part) if np.isfinite(part).any() else np.nan for part in parts]),
+        "rmse": np.sqrt(np.stack([_mean(part**2) for part in parts], axis=1)),
+        "bias": np.stack([_mean(part) for part in parts], axis=1),
         "count": np.array([part.shape[1] for part in parts]),
     }
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from typing import Any, Optional, Sequence, Union
+from typing import Any, Iterable, Optional, Sequence, Union
 
 import numpy as np
 
@@ -15,27 +15,37 @@ AlbedoLike = Union[float, Sequence[float], np.ndarray]
 
 
 class Curves(dict):
-    """Bounce curves over one kind of AO: columns of one length, a row per filled bin and bounce.
+    """Bounce curves: a dict of columns of one length, a row per kind of AO, filled bin and bounce.
 
-    bin, ao_lo, ao_hi, ao_mean, count; bounce (−1: all later ones together); mean, stddev, p05, p50, p95 of E_b/π
-    at albedo 1 over the bin's texels. `kind` is "ambient_occlusion" (α) or "sky_view_factor" (A).
+    ao_kind ("ambient_occlusion", α, or "sky_view_factor", A), bin, ao_lo, ao_hi, ao_mean, count; bounce (−1: all
+    later ones together); mean, stddev, p05, p50, p95 of E_b/π at albedo 1 over the bin's texels. `bins` says how
+    many bins there were for the rows to fill.
     """
 
-    @property
-    def kind(self) -> str:
-        return self["kind"]
+    def __init__(self, tables: Iterable[dict[str, Any]]) -> None:
+        parts = list(tables)
+        columns = [name for name in parts[0] if isinstance(parts[0][name], np.ndarray)]
+        kinds = [np.full(len(part["bin"]), part["kind"]) for part in parts]
+        super().__init__(ao_kind=np.concatenate(kinds))
+        for name in columns:
+            self[name] = np.concatenate([part[name] for part in parts])
+        self.bins: int = parts[0]["bins"]
 
-    def bounce(self, number: int) -> tuple[np.ndarray, np.ndarray]:
+    def over(self, kind: str) -> dict[str, Any]:
+        """The rows of one kind of AO, with `kind` and `bins`."""
+        rows = self["ao_kind"] == kind
+        return {"kind": kind, "bins": self.bins, **{name: column[rows] for name, column in self.items() if name != "ao_kind"}}
+
+    def bounce(self, number: int, kind: str = "ambient_occlusion") -> tuple[np.ndarray, np.ndarray]:
         """(AO, mean E_b/π) of the bins, to plot."""
-        rows = self["bounce"] == number
+        rows = (self["bounce"] == number) & (self["ao_kind"] == kind)
         return self["ao_mean"][rows], self["mean"][rows]
 
     def to_pandas(self) -> Any:
-        """As a pandas.DataFrame, with the kind as a column. Raises ImportError without pandas."""
+        """As a pandas.DataFrame. Raises ImportError without pandas."""
         import pandas
 
-        columns = {name: values for name, values in self.items() if isinstance(values, np.ndarray)}
-        return pandas.DataFrame({"ao_kind": self.kind, **columns})
+        return pandas.DataFrame(dict(self))
 
 
 class Operator:
@@ -109,10 +119,13 @@ class Operator:
         totals, self._evidence = self._native.solve(constant, varying, light)
         return totals[0] if len(totals) == 1 else np.stack(totals, axis=-1)
 
-    def curves(self, bins: int = 100, bounces: int = 20) -> dict[str, Curves]:
-        """Bounce curves over α ("ambient_occlusion") and over A ("sky_view_factor")."""
-        over_alpha, over_sky, _, _ = self._native.curves(integer("bins", bins, 1, 10000), integer("bounces", bounces, 1, 1000))
-        return {"ambient_occlusion": Curves(over_alpha), "sky_view_factor": Curves(over_sky)}
+    def curves(self, bins: int = 100, bounces: int = 20) -> Curves:
+        """Bounce curves over α and over A, as `simulate` writes them to curves.csv."""
+        over_alpha, over_sky, _, _ = self._curves(bins, bounces)
+        return Curves((over_alpha, over_sky))
+
+    def _curves(self, bins: int, bounces: int) -> tuple[dict[str, Any], dict[str, Any], float, float]:
+        return self._native.curves(integer("bins", bins, 1, 10000), integer("bounces", bounces, 1, 1000))
 
     def as_linear_operator(self, albedo: Optional[AlbedoLike] = None) -> Any:
         """As a scipy.sparse.linalg.LinearOperator on rows × columns numbers, 0 where the sample is missing: F, or

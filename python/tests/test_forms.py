@@ -116,6 +116,7 @@ def test_judging_a_form():
     assert judged.left_out >= judged.rmse - 1e-9
     assert set(judged.by_map) == set(maps) and set(judged.by_albedo) == {0.3, 0.6}
     assert judged.by_ao["count"].sum() == 3 * 48 * 48
+    assert judged.by_ao["rmse"].shape == (2, len(judged.by_ao["ao"])) == judged.by_ao["bias"].shape
     assert 0 < judged.reference_rmse < 0.01
     text = hl.judge("mine = A/(1 - rho*(1 - A)^k)", maps, albedos=(0.3, 0.6))
     assert text.rmse == pytest.approx(judged.rmse, rel=1e-4)

@@ -72,18 +72,17 @@ def test_missing_texels(holed):
 
 def test_curves_are_columns(brick_operator):
     curves = brick_operator.curves(bins=20, bounces=3)
-    for kind, table in curves.items():
-        assert table.kind == kind
-        assert len({len(table[name]) for name in table if isinstance(table[name], np.ndarray)}) == 1
-        assert set(table["bounce"]) == {-1, 0, 1, 2, 3}
-        ao, mean = table.bounce(0)
+    assert len({len(column) for column in curves.values()}) == 1 and curves.bins == 20
+    for kind in ("ambient_occlusion", "sky_view_factor"):
+        assert set(curves.over(kind)["bounce"]) == {-1, 0, 1, 2, 3}
+        ao, mean = curves.bounce(0, kind)
         assert np.all(np.diff(ao) > 0) and len(ao) == len(mean)
         sums = np.zeros(len(ao))
         for bounce in (0, 1, 2, 3, -1):
-            sums += table.bounce(bounce)[1]
+            sums += curves.bounce(bounce, kind)[1]
         np.testing.assert_allclose(sums, 1, atol=1e-9)
     pandas = pytest.importorskip("pandas")
-    assert isinstance(curves["sky_view_factor"].to_pandas(), pandas.DataFrame)
+    assert isinstance(curves.to_pandas(), pandas.DataFrame)
 
 
 def test_n_gives_the_total_back(brick_operator):

@@ -15,8 +15,9 @@ std::array<std::size_t, 3> find_colours(const InputFile& file, const std::vector
   constexpr std::array<const char*, 3> kColours{"R", "G", "B"};
   std::array<std::size_t, 3> places{};
   for (std::size_t c = 0; c < places.size(); ++c) {
-    const auto found = std::find_if(channels.begin(), channels.end(),
-                                    [&](const std::string& name) { return equal_names(name, kColours.at(c)); });
+    const auto found = std::find_if(channels.begin(), channels.end(), [&](const std::string& name) {
+      return equal_names(name, kColours.at(c));
+    });
     if (found == channels.end()) throw file.error("has no channels R, G and B, but " + join_names(channels));
     places.at(c) = static_cast<std::size_t>(found - channels.begin());
   }
