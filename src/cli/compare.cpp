@@ -16,7 +16,7 @@
 #include "cli/user_form_options.h"
 #include "cli/warnings.h"
 #include "comparison/comparison_csv.h"
-#include "comparison/far_field.h"
+#include "comparison/comparison_study.h"
 #include "comparison/report.h"
 #include "files/output_file.h"
 #include "files/printable.h"
@@ -125,51 +125,34 @@ std::vector<std::string> find_poles(const std::vector<FormOnMap>& own_forms, con
 
 void compare_on(const CompareOptions& options, const Surface& surface, LoadedHeightmap& loaded,
                 const std::vector<UserForm>& own, StagedFolder& folder, Plots& plots) {
-  const Watch terminal = terminal_watch(options.run.quiet);
-  const std::vector<ComparedAlbedo> albedos = compared_albedos(options, surface);
+  std::vector<ComparedAlbedo> albedos = compared_albedos(options, surface);
   const std::uint64_t memory = memory_for_methods(options, surface, albedos);
-  const Stopwatch watch;
-  const DepthBuffer depth = make_depth_buffer(surface);
-  const Cost depth_cost = watch.elapsed();
-  const ComparisonReference reference = build_reference(surface, {.azimuths = options.azimuths,
-                                                                  .sky = read_compared_sky(options),
-                                                                  .albedos = albedos,
-                                                                  .memory = memory,
-                                                                  .seed = options.run.seed,
-                                                                  .watch = terminal});
-  const Map far_field = bake_far_field(surface, memory);
-  ComparedScene scene{.surface = surface,
-                      .depth = depth,
-                      .albedos = albedos,
-                      .far_field = &far_field,
-                      .memory = memory,
-                      .seed = options.run.seed};
-  std::vector<FormOnMap> own_forms;
-  for (const UserForm& form : own) {
-    own_forms.push_back(fit_on_map(form, scene, reference));
-    scene.forms.push_back(to_closed_form(form, own_forms.back().constants));
-  }
-  const Comparison comparison = compare_methods(scene, reference, make_contenders(scene), terminal);
-  const Answer answer = find_answer(comparison, scene);
-
-  for (const std::string& fault : find_faults(reference.total_evidence))
+  const ComparisonStudy study(surface, {.albedos = std::move(albedos),
+                                        .own_forms = own,
+                                        .sky = read_compared_sky(options),
+                                        .azimuths = options.azimuths,
+                                        .memory = memory,
+                                        .seed = options.run.seed,
+                                        .watch = terminal_watch(options.run.quiet)});
+  for (const std::string& fault : find_faults(study.reference.total_evidence))
     loaded.warnings.push_back({"the reference: " + fault});
-  for (const std::string& fault : find_poles(own_forms, answer)) loaded.warnings.push_back({fault});
+  for (const std::string& fault : find_poles(study.own_forms, study.answer))
+    loaded.warnings.push_back({fault});
   const ReportInput input{.map_name = printable(options.map.path.filename()),
-                          .scene = scene,
-                          .reference = reference,
-                          .comparison = comparison,
-                          .answer = answer,
-                          .own_forms = own_forms,
-                          .depth_cost = depth_cost,
+                          .scene = study.scene,
+                          .reference = study.reference,
+                          .comparison = study.comparison,
+                          .answer = study.answer,
+                          .own_forms = study.own_forms,
+                          .depth_cost = study.depth_cost,
                           .warnings = loaded.warnings};
-  write_comparison_csv(folder.file("compare.csv"), comparison.rows);
+  write_comparison_csv(folder.file("compare.csv"), study.comparison.rows);
   write_report(folder.file("report.md"), input);
-  if (!own_forms.empty()) {
-    write_bytes(folder.file("forms.glsl"), shader_of_forms(own_forms, ShaderLanguage::glsl));
-    write_bytes(folder.file("forms.hlsl"), shader_of_forms(own_forms, ShaderLanguage::hlsl));
+  if (!study.own_forms.empty()) {
+    write_bytes(folder.file("forms.glsl"), shader_of_forms(study.own_forms, ShaderLanguage::glsl));
+    write_bytes(folder.file("forms.hlsl"), shader_of_forms(study.own_forms, ShaderLanguage::hlsl));
   }
-  write_error_pictures(folder, comparison.shown);
+  write_error_pictures(folder, study.comparison.shown);
   draw_comparison(folder, input, plots);
   const std::vector<FileRecord> files = folder.written();
   write_bytes(folder.file("compare.json"), comparison_json(options.map.path, loaded, input, files));
@@ -177,7 +160,7 @@ void compare_on(const CompareOptions& options, const Surface& surface, LoadedHei
   tell_warnings(options.map.path, loaded.warnings);
   if (options.run.quiet) return;
   report_removed(removed);
-  fmt::print("{}: {} lines in {}\n", printable(options.map.path), comparison.rows.size(),
+  fmt::print("{}: {} lines in {}\n", printable(options.map.path), study.comparison.rows.size(),
              printable(options.folder / "compare.csv"));
 }
 

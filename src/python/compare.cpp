@@ -3,10 +3,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
-#include "comparison/answer.h"
-#include "comparison/compare_methods.h"
-#include "comparison/far_field.h"
-#include "comparison/user_form_fit.h"
+#include "comparison/comparison_study.h"
 #include "heightlight/error.h"
 #include "python/arrays.h"
 #include "python/bindings.h"
@@ -82,47 +79,26 @@ ComparedSky read_sky(const std::optional<Array<float>>& radiance) {
   return {.quantity = "sky_irradiance", .label = "the sky given", .light = normalised(std::move(sky))};
 }
 
-/// All that a comparison found.
-struct Compared {
-  Comparison comparison;
-  Answer answer;
-};
-
 py::tuple compare_surface(const Surface& surface, const Settings& settings, const std::vector<double>& albedo,
                           const std::vector<std::string>& forms, const std::optional<Array<float>>& sky,
                           int azimuths) {
   check_azimuths(azimuths);
-  const std::vector<ComparedAlbedo> albedos = read_albedos(albedo, surface);
-  const ComparedSky compared_sky = read_sky(sky);
-  const std::vector<UserForm> own = read_user_forms(forms, {});
   const Request request = make_request(settings);
+  ComparisonOptions options{.albedos = read_albedos(albedo, surface),
+                            .own_forms = read_user_forms(forms, {}),
+                            .sky = read_sky(sky),
+                            .azimuths = azimuths,
+                            .memory = request.limits.memory,
+                            .seed = request.accuracy.seed};
   PythonWatch watch(settings.progress);
-  const Compared found = watch.run([&](const Watch& told) {
+  const std::unique_ptr<const ComparisonStudy> study = watch.run([&](const Watch& told) {
     const ThreadScope threads(settings.threads);
-    const std::uint64_t memory = request.limits.memory;
-    const DepthBuffer depth = make_depth_buffer(surface);
-    const ComparisonReference reference = build_reference(surface, {.azimuths = azimuths,
-                                                                    .sky = compared_sky,
-                                                                    .albedos = albedos,
-                                                                    .memory = memory,
-                                                                    .seed = request.accuracy.seed,
-                                                                    .watch = told});
-    const Map far_field = bake_far_field(surface, memory);
-    ComparedScene scene{.surface = surface,
-                        .depth = depth,
-                        .albedos = albedos,
-                        .far_field = &far_field,
-                        .memory = memory,
-                        .seed = request.accuracy.seed};
-    for (const UserForm& form : own)
-      scene.forms.push_back(to_closed_form(form, fit_on_map(form, scene, reference).constants));
-    Compared all{.comparison = compare_methods(scene, reference, make_contenders(scene), told), .answer = {}};
-    all.answer = find_answer(all.comparison, scene);
-    return all;
+    options.watch = told;
+    return std::make_unique<const ComparisonStudy>(surface, std::move(options));
   });
   py::list rows;
-  for (const ComparisonRow& row : found.comparison.rows) rows.append(describe_row(row));
-  return py::make_tuple(rows, describe_answer(found.answer));
+  for (const ComparisonRow& row : study->comparison.rows) rows.append(describe_row(row));
+  return py::make_tuple(rows, describe_answer(study->answer));
 }
 
 }  // namespace
