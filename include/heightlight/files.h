@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -29,6 +30,15 @@ struct LoadOptions {
   std::optional<std::string> part = {};     ///< of an EXR of several: name (any case) or 0-based index
   std::optional<std::string> channel = {};  ///< name (any case) or 0-based index; default: the only one, or
                                             ///< grey where all agree at every texel (alpha left out)
+  std::optional<std::array<int, 2>> size =
+      {};                   ///< columns and rows of raw samples, which tell none themselves
+  bool big_endian = false;  ///< of raw samples: the highest byte first
+  /// > 0; height per stored value, in world units: what is stored are then heights, and nothing is stretched.
+  /// Excludes `relief` and `relief_share`
+  std::optional<double> scale = {};
+  std::optional<double> offset =
+      {};                          ///< height of a stored 0, world units; with a scale of 1 where it is alone
+  bool degrees_in_metres = false;  ///< a spacing in degrees is turned into metres at the middle latitude
   int shrink = 1;       ///< means of shrink × shrink samples take their place; must divide both sides
   bool invert = false;  ///< the file holds depths: the highest value is the lowest place
 };
@@ -73,22 +83,23 @@ struct LoadedHeightmap {
 /// Throws UsageError for options outside their range, or that exclude each other.
 void check_load_options(const LoadOptions& options);
 
-/// Reads a heightmap: PNG of 8 and 16 bits, Esri ASCII grids (`.asc`), and what OpenImageIO reads (EXR, TIFF,
-/// JPEG, TGA, HDR). The format follows from the file's content, not from its name, save for `.asc`. Integer
-/// samples are stretched so that the lowest present is 0 and the highest `relief`; float samples are heights,
-/// and so are integers of a TIFF with a spacing that is signed, has a pixel scale or declares no-data: they
-/// are stretched likewise only where `relief` is given. What is stretched has base 0; a level map stays
-/// level. Samples equal to `no_data` or to the value that the file itself declares, each as the stored type
-/// sees it (the nearest float, half or integer), NaN, ±infinity and transparent ones go missing. `shrink`
-/// comes last, on heights as stretched, so that the relief of what is left may be less. `width` sets the
-/// spacing along the rows, and that of an Esri grid along the columns in proportion. `memory_limit` (bytes)
-/// is checked against the header's size before samples are read. The file is opened once: its checksum is
-/// that of the bytes that were read. Throws Error naming `path` and what is wrong: missing, a directory,
-/// empty, truncated or damaged, no known format, 0 × 0, larger than memory or 2^31 samples, nothing but
-/// missing samples, heights beyond float, several parts without `part`, channels that differ without
-/// `channel`, a cell size in degrees without `texel` (the message gives it in metres), written to while it
-/// was read; UsageError as check_load_options does, and for a `part` or `channel` that the file does not
-/// have.
+/// Reads a heightmap: PNG of 8 and 16 bits, Esri ASCII grids (`.asc`), what OpenImageIO reads (EXR, TIFF,
+/// JPEG, TGA, HDR), NumPy arrays (`.npy`), SRTM tiles (`.hgt`) and raw samples (`.raw`, `.r16` …, with
+/// `size`). The format follows from the file's content, not from its name, save for `.asc`, `.hgt` and raw
+/// samples. Integer samples are stretched so that the lowest present is 0 and the highest `relief`; float
+/// samples are heights, and so are SRTM's, all that have a `scale` or an `offset`, signed integers with a
+/// `texel`, and integers of a TIFF that has a pixel scale, or a `texel` and no-data: they are stretched
+/// likewise only where `relief` is given. What is stretched has base 0; a level map stays level. Samples
+/// equal to `no_data` or to the value that the file itself declares, each as the stored type sees it (the
+/// nearest float, half or integer), NaN, ±infinity and transparent ones go missing. `shrink` comes last, on
+/// heights as stretched, so that the relief of what is left may be less. `width` sets the spacing along the
+/// rows, and that of an Esri grid along the columns in proportion. `memory_limit` (bytes) is checked against
+/// the header's size before samples are read. The file is opened once: its checksum is that of the bytes that
+/// were read. Throws Error naming `path` and what is wrong: missing, a directory, empty, truncated or
+/// damaged, no known format, 0 × 0, larger than memory or 2^31 samples, nothing but missing samples, heights
+/// beyond float, several parts without `part`, channels that differ without `channel`, a cell size in degrees
+/// without `texel` (the message gives it in metres), written to while it was read; UsageError as
+/// check_load_options does, and for a `part` or `channel` that the file does not have.
 LoadedHeightmap load_heightmap(const std::filesystem::path& path, const LoadOptions& options,
                                std::uint64_t memory_limit);
 

@@ -127,19 +127,25 @@ def read(
     no_data: Optional[float] = None,
     part: Optional[str] = None,
     channel: Optional[str] = None,
+    size: Optional[tuple[int, int]] = None,
+    big_endian: bool = False,
+    scale: Optional[float] = None,
+    offset: Optional[float] = None,
     shrink: int = 1,
     invert: bool = False,
 ) -> Heightmap:
-    """A heightmap from a file: PNG, EXR, TIFF, Esri ASCII grid, JPEG, TGA or HDR.
+    """A heightmap from a file: PNG, EXR, TIFF, Esri ASCII grid, JPEG, TGA, HDR, .npy, SRTM's .hgt, or raw samples.
 
     Integer samples are levels without a unit: they are stretched to `relief`, or `relief_share` of the width (a
     tenth). Float samples are heights as they are. `texel` (one spacing or (x, y)) or `width` says how far apart
-    samples are; a GeoTIFF and an Esri grid say so themselves. What a user should know of the file is warned of.
+    samples are; a GeoTIFF and an Esri grid say so themselves, and "auto" turns degrees into metres. `scale` and
+    `offset` make heights of levels: height per stored value, and of a stored 0. Raw samples want their `size` (rows,
+    columns), and `big_endian` where their highest byte comes first. What a user should know of the file is warned of.
 
     Raises OSError naming the file that cannot be read, ValueError for arguments that make no sense.
     """
     options: dict[str, Any] = {"shrink": integer("shrink", shrink, 1), "invert": bool(invert)}
-    for name, value in (("relief", relief), ("relief_share", relief_share), ("width", width), ("no_data", no_data)):
+    for name, value in (("relief", relief), ("relief_share", relief_share), ("width", width), ("no_data", no_data), ("scale", scale), ("offset", offset)):
         if value is not None:
             options[name] = real(name, value)
     for name, text in (("part", part), ("channel", channel), ("boundary", boundary)):
@@ -147,7 +153,13 @@ def read(
             options[name] = str(text)
     if boundary not in (None, "tile", "open"):
         raise ValueError(f"boundary {boundary}: must be tile or open")
-    if texel is not None:
+    if size is not None:
+        rows, columns = size
+        options["size"] = (integer("size", rows, 1), integer("size", columns, 1))
+    options["big_endian"] = bool(big_endian)
+    if isinstance(texel, str) and texel == "auto":
+        options["texel"] = texel
+    elif texel is not None:
         options["texel"] = spacing(texel, np.empty((1, 1)))
     found = _native.read(os.fspath(path), options)
     for warning in found["warnings"]:

@@ -108,3 +108,18 @@ def test_a_real_terrain():
             assert "degrees" in str(fault)  # and says how many metres those are
             map = hl.read(grid, texel=90)
         assert map.boundary == "open" and min(map.shape) > 10
+
+
+def test_arrays_and_raw_samples_of_files(tmp_path):
+    heights = hl.synth("fbm", 24, relief=30).height[:16]
+    np.save(tmp_path / "array.npy", heights)
+    map = hl.read(tmp_path / "array.npy", texel=2)
+    np.testing.assert_array_equal(map.height, (heights.astype(float) - heights.min()).astype(np.float32))
+    levels = (np.arange(12, dtype=">u2") * 100).reshape(3, 4)
+    levels.tofile(tmp_path / "levels.r16")
+    map = hl.read(tmp_path / "levels.r16", size=(3, 4), big_endian=True, scale=0.5, offset=-10, texel=1)
+    np.testing.assert_array_equal(map.height + map.base, levels * 0.5 - 10)
+    with pytest.raises(OSError, match="holds raw samples"):
+        hl.read(tmp_path / "levels.r16")
+    with pytest.raises(ValueError, match="scale"):
+        hl.read(tmp_path / "levels.r16", size=(3, 4), scale=2, relief=1)

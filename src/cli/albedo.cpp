@@ -81,7 +81,9 @@ TexelVector decode(const StoredImage& image, std::size_t channel) {
 ReadAlbedo read_albedo_file(const std::string& path, const Heightmap& map, std::uint64_t memory_limit) {
   const InputFile file(path);
   const FileFormat format = recognise_format(file);
-  if (format == FileFormat::esri_grid) throw file.error("an Esri grid holds no albedo; use an image");
+  if (!is_picture(format))
+    throw file.error(std::string("is of the kind ") + to_string(format) +
+                     ", which holds no albedo; use an image");
   const StoredImage image = read_image(file, format, memory_limit);
   if (image.width != map.height.width || image.height != map.height.height) {
     throw file_error(path, "the albedo is " + std::to_string(image.width) + " × " +

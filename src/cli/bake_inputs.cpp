@@ -18,8 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 
 bool has_heightmap_extension(const fs::path& path) {
-  static const std::set<std::string> kExtensions{".png",  ".exr", ".tif", ".tiff", ".jpg",
-                                                 ".jpeg", ".tga", ".hdr", ".asc"};
+  static const std::set<std::string> kExtensions{".png", ".exr", ".tif", ".tiff", ".jpg", ".jpeg",
+                                                 ".tga", ".hdr", ".asc", ".npy",  ".hgt"};
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });

@@ -65,6 +65,8 @@ void read_file(const std::filesystem::path& manifest, const JsonPlace& place, co
   if (map.name.empty()) throw file.error("is not the name of a file");
   LoadOptions& load = map.load;
   if (const auto texel = place.find("texel")) load.texel = read_spacing(*texel);
+  if (const auto scale = place.find("scale")) load.scale = scale->positive_number();
+  if (const auto offset = place.find("offset")) load.offset = offset->number();
   if (const auto value = place.find("no_data")) load.no_data = value->number();
   if (const auto part = place.find("part")) load.part = part->text();
   if (const auto channel = place.find("channel")) load.channel = channel->text();
@@ -74,7 +76,7 @@ void read_file(const std::filesystem::path& manifest, const JsonPlace& place, co
 
 ManifestMap read_map(const std::filesystem::path& manifest, const JsonPlace& place) {
   place.check_keys({"file", "name", "relief", "width", "texel", "boundary", "no_data", "part", "channel",
-                    "shrink", "invert", "shape", "size", "seed"});
+                    "scale", "offset", "shrink", "invert", "shape", "size", "seed"});
   const auto file = place.find("file");
   const auto shape = place.find("shape");
   if (file.has_value() == shape.has_value()) throw place.error("must have either a \"file\" or a \"shape\"");
@@ -84,7 +86,7 @@ ManifestMap read_map(const std::filesystem::path& manifest, const JsonPlace& pla
     read_shape(place, *shape, map);
   } else {
     place.check_keys({"file", "name", "relief", "width", "texel", "boundary", "no_data", "part", "channel",
-                      "shrink", "invert"});
+                      "scale", "offset", "shrink", "invert"});
     read_file(manifest, place, *file, map);
   }
   LoadOptions& load = map.load;
@@ -246,7 +248,7 @@ std::string describe_manifest() {
       {"name": "cast", "visibility": "rays", "rays": 1000, "seed": 3, "save_bounces": true}
     ]
   }
-Only "maps" must be there. Maps also take "relief", "width", "part", "channel", "shrink" and "invert", as simulate does.
+Only "maps" must be there. Maps also take "relief", "width", "part", "channel", "scale", "offset", "shrink" and "invert", as simulate does.
 )";
 }
 

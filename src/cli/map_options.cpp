@@ -33,6 +33,19 @@ Spacing parse_spacing(const std::string& text) {
   return {parse_length(text.substr(0, cross), text), parse_length(text.substr(cross + 1), text)};
 }
 
+std::array<int, 2> parse_size(const std::string& text) {
+  const std::size_t cross = text.find('x');
+  const auto side = [&](const std::string& number) {
+    int value = 0;
+    const auto [stop, fault] = std::from_chars(number.data(), number.data() + number.size(), value);
+    if (fault != std::errc() || stop != number.data() + number.size() || value < 1)
+      throw UsageError("size", text, "write columns and rows, such as 1024x512");
+    return value;
+  };
+  if (cross == std::string::npos) throw UsageError("size", text, "write columns and rows, such as 1024x512");
+  return {side(text.substr(0, cross)), side(text.substr(cross + 1))};
+}
+
 }  // namespace
 
 // CLI11 takes "-1" for the largest number that there is, and so what is larger than that.
@@ -47,7 +60,10 @@ CLI::Validator whole_number() {
 }
 
 void add_map_options(CLI::App& command, MapOptions& options) {
-  command.add_option("MAP", options.path, "heightmap: PNG, EXR, TIFF, JPEG, TGA, HDR or Esri ASCII grid")
+  command
+      .add_option(
+          "MAP", options.path,
+          "heightmap: PNG, EXR, TIFF, JPEG, TGA, HDR, Esri ASCII grid, NumPy array, SRTM tile or raw samples")
       ->required();
   add_load_options(command, options.load);
 }
@@ -57,9 +73,13 @@ void add_load_options(CLI::App& command, LoadOptions& load) {
   auto* width = command.add_option("--width", load.width, "extent of the columns in world units (1)");
   command
       .add_option_function<std::string>(
-          "--texel", [&load](const std::string& text) { load.texel = parse_spacing(text); },
-          "spacing of samples in world units: S, or SXxSY")
-      ->type_name("S|SXxSY")
+          "--texel",
+          [&load](const std::string& text) {
+            load.degrees_in_metres = text == "auto";
+            if (!load.degrees_in_metres) load.texel = parse_spacing(text);
+          },
+          "spacing of samples in world units: S, or SXxSY; auto: metres, where the file tells it in degrees")
+      ->type_name("S|SXxSY|auto")
       ->excludes(width);
   command
       .add_option_function<std::string>(
@@ -69,6 +89,14 @@ void add_load_options(CLI::App& command, LoadOptions& load) {
           },
           "tile: the map repeats (images' default); open: nothing beyond (Esri grids' default)")
       ->check(CLI::IsMember({"tile", "open"}));
+  command
+      .add_option_function<std::string>(
+          "--size", [&load](const std::string& text) { load.size = parse_size(text); },
+          "columns and rows of raw samples: WxH")
+      ->type_name("WxH");
+  command.add_flag("--big-endian", load.big_endian, "raw samples have their highest byte first");
+  command.add_option("--scale", load.scale, "height per stored value, world units: nothing is stretched");
+  command.add_option("--offset", load.offset, "height of a stored 0, world units (0)");
   command.add_option("--no-data", load.no_data, "the stored value that means a missing sample");
   command.add_option("--part", load.part, "part to read of an EXR that has several, by name or number");
   command.add_option("--channel", load.channel, "channel to read, by name or number, where they differ");

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "files/named.h"
+#include "files/sample_grid.h"
 
 namespace heightlight {
 namespace {
@@ -27,6 +28,7 @@ constexpr std::array kMagics{
     Magic{"II+\0"sv, FileFormat::tiff},  // BigTIFF
     Magic{"MM\0+"sv, FileFormat::tiff},
     Magic{"\xff\xd8\xff"sv, FileFormat::jpeg},
+    Magic{"\x93NUMPY"sv, FileFormat::numpy},
     Magic{"#?R"sv, FileFormat::hdr},  // #?RADIANCE or #?RGBE
 };
 
@@ -48,7 +50,6 @@ constexpr std::array kUnread{
     Unread{"\0\0\0\x0cjP  "sv, "a JPEG 2000 image", kConvert},
     Unread{"\x89HDF"sv, "an HDF5 or NetCDF file", kConvert},
     Unread{"CDF"sv, "a NetCDF file", kConvert},
-    Unread{"\x93NUMPY"sv, "a NumPy array", kConvert},
     Unread{"PK\x03\x04"sv, "a zip archive", kUnpack},
     Unread{"\x1f\x8b"sv, "a gzip archive", kUnpack},
 };
@@ -88,7 +89,7 @@ bool is_named_raw(const std::filesystem::path& path) {
   return std::find(kRaw.begin(), kRaw.end(), extension) != kRaw.end();
 }
 
-std::string explain_unread(const std::filesystem::path& path, std::string_view head) {
+std::string explain_unread(std::string_view head) {
   for (const Unread& kind : kUnread) {
     if (!head.starts_with(kind.bytes)) continue;
     if (kind.bytes.size() == 2 && kind.bytes == "BM" && head.size() < 54) continue;  // a whole header
@@ -96,8 +97,6 @@ std::string explain_unread(const std::filesystem::path& path, std::string_view h
   }
   if (head.size() >= 12 && head.starts_with("RIFF") && head.substr(8, 4) == "WEBP")
     return std::string("is a WebP image, of 8 bits at most; ") + kConvert;
-  if (is_named_raw(path))
-    return std::string("holds raw samples, without a header that gives their size and type; ") + kConvert;
   return "";
 }
 
@@ -124,8 +123,26 @@ const char* to_string(FileFormat format) {
       return "targa";
     case FileFormat::esri_grid:
       return "esri ascii grid";
+    case FileFormat::numpy:
+      return "numpy array";
+    case FileFormat::srtm:
+      return "srtm tile";
+    case FileFormat::raw:
+      return "raw samples";
   }
   return "";
+}
+
+bool is_picture(FileFormat format) {
+  switch (format) {
+    case FileFormat::esri_grid:
+    case FileFormat::numpy:
+    case FileFormat::srtm:
+    case FileFormat::raw:
+      return false;
+    default:
+      return true;
+  }
 }
 
 FileFormat recognise_format(const InputFile& file) {
@@ -136,12 +153,15 @@ FileFormat recognise_format(const InputFile& file) {
   }
   refuse_utf16(file.path(), head);
   if (head.starts_with(kByteOrderMark)) head.remove_prefix(kByteOrderMark.size());
-  const std::string unread = explain_unread(file.path(), head);
+  const std::string unread = explain_unread(head);
   if (!unread.empty()) throw file.error(unread);
+  if (is_srtm(file)) return FileFormat::srtm;
+  if (is_named_raw(file.path())) return FileFormat::raw;
   if (looks_like_esri_grid(file.path(), head)) return FileFormat::esri_grid;
   if (looks_like_targa(head)) return FileFormat::targa;
-  throw file.error(std::string(is_text(head) ? "holds text, not an image" : "is no image") +
-                   " (known: PNG, EXR, TIFF, JPEG, TGA, HDR, Esri ASCII grid)");
+  throw file.error(
+      std::string(is_text(head) ? "holds text, not an image" : "is no image") +
+      " (known: PNG, EXR, TIFF, JPEG, TGA, HDR, Esri ASCII grid, NumPy array, SRTM tile, raw samples)");
 }
 
 }  // namespace heightlight

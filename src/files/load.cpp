@@ -45,25 +45,26 @@ Spacing choose_spacing(const InputFile& file, const LoadOptions& options, const 
   Spacing cell{1 / columns, 1 / columns};
   if (const std::optional<EsriHeader> place = georeference(stored)) {
     cell = {place->cell_x, place->cell_y};
-    const bool said = stored.tiff && stored.tiff->in_degrees;
+    const bool said = stored.in_degrees || (stored.tiff && stored.tiff->in_degrees);
     if (said && !place->south) throw file.error("its pixel scale is in degrees; give it in metres", "texel");
     if (said || is_in_degrees(*place, stored.facts.highest - stored.facts.lowest)) {
       const Spacing metres = cell_in_metres(*place);
+      if (options.degrees_in_metres) return metres;
       const std::string texel = fmt::format("{:.4g}x{:.4g}", metres.x, metres.y);
       throw file.error("its cell size is in degrees; give the spacing in metres, which is " + texel +
                            " at its middle latitude",
                        "texel " + texel);
     }
   }
+  if (options.degrees_in_metres && !options.width)
+    throw file.error("does not tell a spacing in degrees, which texel auto would turn into metres", "texel");
   if (options.width) cell = {*options.width / columns, *options.width / columns * (cell.y / cell.x)};
   return cell;
 }
 
-/// Heights above the lowest sample, scaled so that they span `relief` where that is given.
-Image<float> to_heights(const InputFile& file, const StoredHeights& stored,
-                        const std::optional<double>& relief, bool invert) {
+/// Heights above the lowest sample, `scale` of them to a stored value.
+Image<float> to_heights(const InputFile& file, const StoredHeights& stored, double scale, bool invert) {
   const double span = stored.facts.highest - stored.facts.lowest;
-  const double scale = relief && span > 0 ? *relief / span : 1;
   if (!(span * scale <= static_cast<double>(std::numeric_limits<float>::max())))
     throw file.error("its heights span more than single precision can hold");
   Image<float> heights(stored.values.width, stored.values.height);
@@ -91,6 +92,13 @@ void check_load_options(const LoadOptions& options) {
   if (options.relief && options.relief_share)
     throw UsageError("the relief is given twice: as a height, and as a share of the width");
   check_length("width", options.width);
+  check_length("scale", options.scale);
+  if ((options.scale || options.offset) && (options.relief || options.relief_share))
+    throw UsageError(options.scale ? "scale" : "offset", "",
+                     "excludes a relief, to which heights are stretched");
+  if (options.offset && !std::isfinite(*options.offset)) throw UsageError("offset", "", "must be a number");
+  if (options.size && ((*options.size)[0] < 1 || (*options.size)[1] < 1))
+    throw UsageError("size", "", "must be columns and rows, at least 1 each");
   if (options.shrink < 1) throw UsageError("shrink", std::to_string(options.shrink), "must be 1 or more");
   if (options.no_data && !std::isfinite(*options.no_data))
     throw UsageError("no_data", "", "must be a number; NaN and infinities are missing anyway");
@@ -115,10 +123,13 @@ LoadedHeightmap load_heightmap(const std::filesystem::path& path, const LoadOpti
   if (options.relief_share) relief = *options.relief_share * width;
   if (!relief && stored.facts.is_stretched) relief = width / 10;
   const bool invert = options.invert != stored.facts.white_is_zero;
-  map.height = to_heights(file, stored, relief, invert);
+  const double span = stored.facts.highest - stored.facts.lowest;
+  const double scale = relief && span > 0 ? *relief / span : options.scale.value_or(1);
+  map.height = to_heights(file, stored, scale, invert);
   loaded.warnings = find_suspects(stored);
   check_slopes(file, map, loaded.warnings);
-  if (!relief) map.base = invert ? -stored.facts.highest : stored.facts.lowest;
+  if (!relief)
+    map.base = (invert ? -stored.facts.highest : stored.facts.lowest) * scale + options.offset.value_or(0);
   if (options.shrink != 1) map = shrink(map, options.shrink);
 
   for (const std::vector<Warning>& more : {find_doubts(map, stored, options), stored.warnings})

@@ -29,7 +29,9 @@ std::array<std::size_t, 3> find_colours(const InputFile& file, const std::vector
 SkyLight load_sky_light(const std::filesystem::path& path, std::uint64_t memory) {
   const InputFile file(path);
   const FileFormat format = recognise_format(file);
-  if (format == FileFormat::esri_grid) throw file.error("an Esri grid is no sky; use an EXR or HDR image");
+  if (!is_picture(format))
+    throw file.error(std::string("is of the kind ") + to_string(format) +
+                     ", which is no sky; use an EXR or HDR image");
   const StoredImage image = read_image(file, format, memory);
   if (image.is_integer)
     throw file.error("a sky wants radiance, as EXR and HDR images have it, not levels of " +

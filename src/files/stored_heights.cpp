@@ -9,6 +9,8 @@
 #include "files/level_count.h"
 #include "files/named.h"
 #include "files/no_data.h"
+#include "files/sample_grid.h"
+#include "heightlight/error.h"
 
 namespace heightlight {
 namespace {
@@ -24,6 +26,37 @@ StoredHeights read_grid(const InputFile& file, const LoadOptions& options, std::
   stored.facts.declared_no_data = grid.header.no_data;
   stored.values = std::move(grid.values);
   stored.grid = grid.header;
+  return stored;
+}
+
+/// What is no picture and no text: samples one after the other.
+StoredHeights read_sample_file(const InputFile& file, FileFormat format, const LoadOptions& options,
+                               std::uint64_t memory_limit) {
+  if (options.part) throw UsageError(file.path().string() + ": has no parts; only EXR files have");
+  if (options.channel) find_named("channel", file, {"height"}, *options.channel);
+  if (format == FileFormat::raw && !options.size) throw raw_needs_size(file);
+  SampleGrid grid =
+      format == FileFormat::numpy ? read_numpy(file, memory_limit)
+      : format == FileFormat::srtm
+          ? read_srtm(file, memory_limit)
+          : read_raw(
+                file,
+                {.width = (*options.size)[0], .height = (*options.size)[1], .big_endian = options.big_endian},
+                memory_limit);
+  StoredHeights stored;
+  stored.facts.channel = "height";
+  stored.facts.channels = 1;
+  stored.facts.sample_type = grid.sample_type;
+  stored.facts.bits = grid.bits;
+  stored.facts.is_integer = grid.is_integer;
+  const bool is_signed = grid.sample_type.starts_with("int") && grid.bits >= 16;
+  const bool is_elevation = format == FileFormat::srtm || (options.texel && is_signed);
+  stored.facts.is_stretched = grid.is_integer && !is_elevation;
+  stored.values = std::move(grid.values);
+  stored.grid = grid.place;
+  stored.in_degrees = grid.place.has_value();
+  constexpr double kSrtmVoid = -32768;
+  if (format == FileFormat::srtm) stored.facts.declared_no_data = kSrtmVoid;
   return stored;
 }
 
@@ -68,7 +101,7 @@ StoredHeights read_picture(const InputFile& file, FileFormat format, const LoadO
 /// Esri's software reads -9999 as missing where a grid's header names no other value.
 void assume_esri_default(StoredHeights& stored) {
   constexpr double kEsriDefault = -9999;
-  if (!stored.grid || stored.grid->no_data) return;
+  if (!stored.grid || stored.in_degrees || stored.grid->no_data) return;
   const std::size_t dropped = drop_no_data(kEsriDefault, stored.facts.sample_type, stored.values);
   if (dropped == 0) return;
   stored.facts.declared_no_data = kEsriDefault;
@@ -106,9 +139,13 @@ void drop_missing(const InputFile& file, const std::optional<double>& no_data, S
 StoredHeights read_stored_heights(const InputFile& file, const LoadOptions& options,
                                   std::uint64_t memory_limit) {
   const FileFormat format = recognise_format(file);
+  if (options.size && format != FileFormat::raw)
+    throw UsageError(file.path().string() + ": tells its size itself; only raw samples want one");
   StoredHeights stored = format == FileFormat::esri_grid ? read_grid(file, options, memory_limit)
-                                                         : read_picture(file, format, options, memory_limit);
+                         : is_picture(format)            ? read_picture(file, format, options, memory_limit)
+                                              : read_sample_file(file, format, options, memory_limit);
   stored.facts.format = to_string(format);
+  if (options.scale || options.offset) stored.facts.is_stretched = false;
   drop_missing(file, options.no_data, stored);
   return stored;
 }

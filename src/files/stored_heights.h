@@ -14,7 +14,8 @@ namespace heightlight {
 struct StoredHeights {
   Image<double> values;  ///< NaN where missing
   SourceFacts facts;
-  std::optional<EsriHeader> grid;  ///< of an Esri grid
+  std::optional<EsriHeader> grid;  ///< of an Esri grid, or of an SRTM tile
+  bool in_degrees = false;         ///< it is certain that the grid's cells are
   std::optional<TiffFacts> tiff;   ///< of a TIFF
   std::vector<Warning> warnings = {};
 };

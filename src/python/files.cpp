@@ -37,9 +37,18 @@ LoadOptions read_load_options(const py::dict& options) {
   take("relief_share", load.relief_share);
   take("width", load.width);
   take("no_data", load.no_data);
+  take("scale", load.scale);
+  take("offset", load.offset);
+  if (options.contains("size")) {
+    const auto [rows, columns] = options["size"].cast<std::pair<int, int>>();
+    load.size = {columns, rows};
+  }
+  if (options.contains("big_endian")) load.big_endian = options["big_endian"].cast<bool>();
   take("part", load.part);
   take("channel", load.channel);
-  if (options.contains("texel")) {
+  if (options.contains("texel") && py::isinstance<py::str>(options["texel"])) {
+    load.degrees_in_metres = true;
+  } else if (options.contains("texel")) {
     const auto [x, y] = options["texel"].cast<std::pair<double, double>>();
     load.texel = Spacing{x, y};
   }

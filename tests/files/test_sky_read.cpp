@@ -11,7 +11,7 @@ using Catch::Contains;
 
 namespace {
 
-constexpr std::uint64_t kEnough = 1 << 28;
+constexpr std::uint64_t kSkyMemory = 1 << 28;
 
 }  // namespace
 
@@ -20,17 +20,17 @@ TEST_CASE("A sky is read from EXR and HDR", "[files]") {
   const std::vector<float> samples{1, 2, 4, 0, 0.5F, 8};
   const auto path = GENERATE("sky.exr", "sky.hdr");
   write_samples(scratch / path, 2, 1, {"R", "G", "B"}, samples);
-  const SkyLight sky = load_sky_light(scratch / path, kEnough);
+  const SkyLight sky = load_sky_light(scratch / path, kSkyMemory);
   CHECK(sky.radiance.values == std::vector<Vector3>{{1, 2, 4}, {0, 0.5F, 8}});
 }
 
 TEST_CASE("Channels of a sky are found by name, and grey is taken for all", "[files]") {
   const ScratchFolder scratch;
   write_samples<float>(scratch / "four.exr", 2, 1, {"R", "G", "B", "A"}, {1, 2, 3, 1, 4, 5, 6, 1});
-  CHECK(load_sky_light(scratch / "four.exr", kEnough).radiance.values ==
+  CHECK(load_sky_light(scratch / "four.exr", kSkyMemory).radiance.values ==
         std::vector<Vector3>{{1, 2, 3}, {4, 5, 6}});
   write_samples<float>(scratch / "grey.exr", 2, 1, {"Y"}, {3, 4});
-  CHECK(load_sky_light(scratch / "grey.exr", kEnough).radiance.values ==
+  CHECK(load_sky_light(scratch / "grey.exr", kSkyMemory).radiance.values ==
         std::vector<Vector3>{{3, 3, 3}, {4, 4, 4}});
 }
 
@@ -38,7 +38,7 @@ TEST_CASE("What is no sky is refused with its file and the reason", "[files]") {
   const ScratchFolder scratch;
   const auto fault = [&](const std::filesystem::path& path) -> std::string {
     try {
-      load_sky_light(path, kEnough);
+      load_sky_light(path, kSkyMemory);
     } catch (const Error& error) {
       return error.what();
     }
