@@ -115,7 +115,7 @@ def test_arrays_and_raw_samples_of_files(tmp_path):
     np.save(tmp_path / "array.npy", heights)
     map = hl.read(tmp_path / "array.npy", texel=2)
     np.testing.assert_array_equal(map.height, (heights.astype(float) - heights.min()).astype(np.float32))
-    levels = (np.arange(12, dtype=">u2") * 100).reshape(3, 4)
+    levels = (np.arange(12) * 100).reshape(3, 4).astype(">u2")
     levels.tofile(tmp_path / "levels.r16")
     map = hl.read(tmp_path / "levels.r16", size=(3, 4), big_endian=True, scale=0.5, offset=-10, texel=1)
     np.testing.assert_array_equal(map.height + map.base, levels * 0.5 - 10)
