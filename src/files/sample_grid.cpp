@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "files/map_size.h"
+#include "files/printable.h"
 
 namespace heightlight {
 namespace {
@@ -122,7 +123,7 @@ std::array<int, 2> parse_shape(const InputFile& file, const std::string& text) {
     constexpr std::size_t kMostDigits = 9;
     if (number.empty() || number.size() > kMostDigits ||
         number.find_first_not_of("0123456789") != std::string::npos)
-      throw file.error("is damaged: its header's shape is (" + text + ")");
+      throw file.error("is damaged: its header's shape is (" + printable(text) + ")");
     if (count < shape.size()) shape.at(count) = std::stoi(number);
     at = end + 1;
   }
@@ -174,7 +175,8 @@ SampleGrid read_numpy(const InputFile& file, std::uint64_t memory_limit) {
     return type.size() == 3 && type.substr(1) == one.code &&
            std::string_view("<>|=").find(type[0]) != std::string_view::npos;
   });
-  if (known == kTypes.end()) throw file.error("holds samples of type " + type + "; heights are numbers");
+  if (known == kTypes.end())
+    throw file.error("holds samples of type " + printable(type.substr(0, 32)) + "; heights are numbers");
   return read_samples(file,
                       {.type = *known,
                        .width = shape[1],

@@ -193,6 +193,7 @@ TEST_CASE("damaged arrays are refused with their file and the reason", "[files]"
   check(numpy("<f4", "(2, x)", ""), "damaged");
   check(numpy("<c8", "(2, 2)", ""), "of type <c8");
   check(numpy("|O", "(2, 2)", ""), "of type |O");
+  check(numpy("<f\n\x1b", "(2, 2)", ""), "of type <f?");
   check(numpy("<f4", "(0, 2)", ""), "0");
   check(numpy("<f4", "(999999999, 999999999)", ""), "bad.npy");
   check(std::string("\x93NUMPY\x01\x00\x10\x00{'descr': '<f4'}", 26), "no shape");
