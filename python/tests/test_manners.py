@@ -187,6 +187,13 @@ def test_progress_is_told(brick):
     with pytest.raises(RuntimeError, match="seen enough"):
         hl.operator(brick, progress=fail)
 
+    def fail_at_the_end(name, done, total, ended):
+        if ended:
+            raise RuntimeError("too late to stop")
+
+    with pytest.raises(RuntimeError, match="too late"):
+        hl.sky(brick, progress=fail_at_the_end).sky_view_factor
+
 
 def test_help_reads_well():
     for thing in (hl, hl.sky, hl.operator, hl.Operator.solve, hl.bake, hl.judge, hl.forms, hl.forms.cubic, hl.Sky.sky_view_factor):

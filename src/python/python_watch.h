@@ -26,13 +26,13 @@ class PythonWatch {
   PythonWatch& operator=(const PythonWatch&) = delete;
 
   /// Calls work(watch) without Python's lock. An exception that Python raised meanwhile (KeyboardInterrupt,
-  /// or one of the function's own) comes out in place of Cancelled.
+  /// or one of the function's own) comes out in place of Cancelled, and of a result that came all the same.
   template <class Work>
   auto run(Work&& work) {
     try {
-      const py::gil_scoped_release release;
-      const Caller caller(*this);
-      return work(watch());
+      auto found = run_unlocked(work);
+      throw_raised();
+      return found;
     } catch (const Cancelled&) {
       throw_raised();
       throw;
@@ -52,6 +52,13 @@ class PythonWatch {
     Caller(const Caller&) = delete;
     Caller& operator=(const Caller&) = delete;
   };
+
+  template <class Work>
+  auto run_unlocked(Work& work) {
+    const py::gil_scoped_release release;
+    const Caller caller(*this);
+    return work(watch());
+  }
 
   Watch watch();
   bool stopped();
