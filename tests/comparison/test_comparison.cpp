@@ -9,6 +9,7 @@
 #include "comparison/compare_methods.h"
 #include "comparison/comparison_csv.h"
 #include "comparison/pareto_front.h"
+#include "heightlight/error.h"
 #include "plot/error_pictures.h"
 #include "plot/previews.h"
 #include "scratch_folder.h"
@@ -128,6 +129,15 @@ TEST_CASE("the reference knows its own error, and halves of the sky send half of
     whole += double{scene.reference.sky_view_factor.values[i]};
   }
   for (int c = 0; c < 3; ++c) CHECK(light[c] / whole == Approx(as_eigen(both)[c]).epsilon(0.02));
+}
+
+TEST_CASE("a sky that would not fit along so many azimuths is refused", "[comparison]") {
+  const Surface surface = build_surface(make_synth_map("flat", 4, Boundary::tile, 0.1));
+  ReferenceOptions options;
+  options.azimuths = 65536;
+  options.memory = 1 << 24;
+  options.sky.light = {Image<Vector3>(128, 64, {1, 1, 1})};
+  CHECK_THROWS_AS(build_reference(surface, options), MemoryError);
 }
 
 TEST_CASE("every method is compared, and the exact ones come out exact", "[comparison][slow]") {

@@ -46,6 +46,11 @@ Eigen::Vector2d antiderivatives(double elevation_rad) {
 
 }  // namespace
 
+std::uint64_t SkySlices::bytes(const SkyLight& sky, int azimuths) {
+  const auto rows = static_cast<std::uint64_t>(sky.radiance.height) + 1;
+  return static_cast<std::uint64_t>(azimuths) * rows * (sizeof(Eigen::Vector3d) + sizeof(Sums));
+}
+
 SkySlices::SkySlices(const SkyLight& sky, int azimuths) : azimuths_(azimuths), rows_(sky.radiance.height) {
   const auto rows = static_cast<std::size_t>(rows_);
   radiance_.resize(static_cast<std::size_t>(azimuths) * rows);

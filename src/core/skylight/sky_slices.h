@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "heightlight/sky_light.h"
@@ -20,6 +21,9 @@ class SkySlices {
  public:
   /// For the azimuths φ_k = 2π (k + ¼)/K of exact walks (exact_walk.h), each the middle of its slice.
   SkySlices(const SkyLight& sky, int azimuths);
+
+  /// Bytes that so many slices of a sky take.
+  static std::uint64_t bytes(const SkyLight& sky, int azimuths);
 
   /// E/π, red, green and blue, of a receiver with the unit `normal` above the horizons, per azimuth, in
   /// radians; the tangent plane hides what lies below it. As A does (exact_walk.h), it is divided by the

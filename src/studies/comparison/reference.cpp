@@ -6,9 +6,11 @@
 #include <limits>
 #include <numbers>
 
+#include "base/byte_size.h"
 #include "base/hash.h"
 #include "base/parallel.h"
 #include "base/texel_algebra.h"
+#include "heightlight/error.h"
 #include "skylight/sky_slices.h"
 #include "visibility/exact_walk.h"
 #include "visibility/ray_caster.h"
@@ -119,6 +121,11 @@ void find_totals(const Surface& surface, const ReferenceOptions& options, Compar
 
 ComparisonReference build_reference(const Surface& surface, const ReferenceOptions& options) {
   check_azimuths(options.azimuths);
+  const std::uint64_t slices = SkySlices::bytes(options.sky.light, options.azimuths);
+  if (slices > options.memory)
+    throw MemoryError("the sky along " + std::to_string(options.azimuths) + " azimuths takes " +
+                      format_byte_size(slices) + ", more than the " + format_byte_size(options.memory) +
+                      " of memory allowed");
   ComparisonReference reference;
   reference.sky = options.sky;
   walk_all(surface, options, reference);

@@ -36,7 +36,7 @@ struct ReferenceOptions {
   int azimuths = 128;  ///< of the exact walk that every texel makes
   ComparedSky sky = {};
   std::vector<ComparedAlbedo> albedos;
-  std::uint64_t memory = ~0ULL;  ///< bytes that finding the totals may take
+  std::uint64_t memory = ~0ULL;  ///< bytes that the sky's slices, and then finding the totals, may take
   std::uint64_t seed = 1;
   Watch watch = {};
 };
