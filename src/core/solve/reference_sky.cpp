@@ -14,12 +14,13 @@ namespace {
 
 constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
 
-/// Calls visit(row) for all rows on all threads, as one step.
+/// Calls visit(row, progress) for all rows on all threads, as one step. A row of exact walks takes long:
+/// visits ask at each texel whether to go on.
 template <class Visit>
 void for_rows(const Surface& surface, const char* step, const Watch& watch, Visit&& visit) {
   Progress progress(step, surface.height(), watch);
   parallel_for(
-      surface.height(), [&](std::int64_t row) { visit(static_cast<int>(row)); }, &progress);
+      surface.height(), [&](std::int64_t row) { visit(static_cast<int>(row), progress); }, &progress);
 }
 
 HorizonSky empty_sky(const Surface& surface, const SkyWanted& wanted) {
@@ -36,8 +37,9 @@ HorizonSky empty_sky(const Surface& surface, const SkyWanted& wanted) {
 HorizonSky slice_sky(const Surface& surface, int azimuths, const SkyTask& task, const Watch& watch) {
   const ExactWalker walker(surface, azimuths);
   HorizonSky sky = empty_sky(surface, task.wanted);
-  for_rows(surface, "sky", watch, [&](int row) {
+  for_rows(surface, "sky", watch, [&](int row, const Progress& progress) {
     for (int column = 0; column < surface.width(); ++column) {
+      progress.throw_if_stopped();
       const ExactSky exact = find_exact_sky(walker, row, column, task.reach);
       sky.ambient_occlusion(row, column) = static_cast<float>(exact.ambient_occlusion);
       sky.sky_view_factor(row, column) = static_cast<float>(exact.sky_view_factor);
@@ -56,8 +58,9 @@ std::vector<Map> slice_horizons(const Surface& surface, const std::vector<double
   if (horizons.empty()) return horizons;
   const double farthest = reach ? reach->distance : std::numeric_limits<double>::infinity();
   const ExactWalker walker(surface, 1, farthest);
-  for_rows(surface, "horizons", watch, [&](int row) {
+  for_rows(surface, "horizons", watch, [&](int row, const Progress& progress) {
     for (int column = 0; column < surface.width(); ++column) {
+      progress.throw_if_stopped();
       const Vector3& normal = surface.normal(row, column);
       for (std::size_t k = 0; k < azimuths_rad.size(); ++k) {
         const double azimuth = azimuths_rad[k];
@@ -74,10 +77,11 @@ std::vector<Map> slice_horizons(const Surface& surface, const std::vector<double
 HorizonSky cast_sky(const Surface& surface, const RayOptions& rays, const Watch& watch) {
   const RayCaster caster(surface, rays);
   HorizonSky sky = empty_sky(surface, {});
-  for_rows(surface, "sky", watch, [&](int row) {
+  for_rows(surface, "sky", watch, [&](int row, const Progress& progress) {
     RayWorkspace workspace(rays.rays);
     ReceiverView view;
     for (int column = 0; column < surface.width(); ++column) {
+      progress.throw_if_stopped();
       caster.view(row, column, workspace, view);
       if (view.rays == 0) continue;
       const SkyShare share = sky_share(view);

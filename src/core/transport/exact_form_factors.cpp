@@ -31,12 +31,15 @@ double estimate_links(const Surface& surface, const ExactWalker& walker) {
   return sum / kSample;
 }
 
-void fill_row(const Surface& surface, const ExactWalker& walker, int row, FormFactors& form_factors) {
+/// May be stopped at any receiver: a row of exact walks takes long.
+void fill_row(const ExactWalker& walker, int row, const Progress& progress, FormFactors& form_factors) {
+  const Surface& surface = walker.surface();
   constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
   LinkRow& out = form_factors.rows[static_cast<std::size_t>(row)];
   out.begin.push_back(0);
   SliceView view;
   for (int column = 0; column < form_factors.width; ++column) {
+    progress.throw_if_stopped();
     walker.view(row, column, view);
     const bool present = !std::isnan(view.sky_view_factor);
     for (const VisibleInterval& link : view.links) {
@@ -73,7 +76,7 @@ FormFactors build_exact_form_factors(const Surface& surface, int azimuths, const
   Progress progress("visibility", surface.height(), limits.watch);
   parallel_for(
       surface.height(),
-      [&](std::int64_t row) { fill_row(surface, walker, static_cast<int>(row), form_factors); }, &progress);
+      [&](std::int64_t row) { fill_row(walker, static_cast<int>(row), progress, form_factors); }, &progress);
   return form_factors;
 }
 
