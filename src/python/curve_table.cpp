@@ -56,12 +56,13 @@ py::dict curve_table(const BounceCurves& curves) {
   table["bin"] = column<std::int64_t>(curves, [](const CurveBin& bin, int, auto&) { return bin.bin; });
   table["count"] = column<std::int64_t>(curves, [](const CurveBin& bin, int, auto&) { return bin.count; });
   table["bounce"] = column<std::int64_t>(curves, [](auto&, int bounce, auto&) { return bounce; });
-  for (const auto& [name, member] : kBinEdges) {
-    table[name] = column<double>(curves, [&](const CurveBin& bin, int, auto&) { return bin.*member; });
+  for (const auto& edge : kBinEdges) {  // Clang 14 captures no bindings
+    table[edge.first] =
+        column<double>(curves, [&](const CurveBin& bin, int, auto&) { return bin.*edge.second; });
   }
-  for (const auto& [name, member] : kStatistics) {
-    table[name] =
-        column<double>(curves, [&](auto&, int, const BounceStatistics& found) { return found.*member; });
+  for (const auto& statistic : kStatistics) {
+    table[statistic.first] = column<double>(
+        curves, [&](auto&, int, const BounceStatistics& found) { return found.*statistic.second; });
   }
   return table;
 }

@@ -43,7 +43,8 @@ void check_settings(const Settings& settings) {
 
 /// What heightlight throws, as Python knows it: ValueError for what makes no sense, MemoryError for what does
 /// not fit, OSError for files. Messages name quantities, which are called as arguments here are.
-void translate(std::exception_ptr thrown) {
+void translate(
+    std::exception_ptr thrown) {  // NOLINT(performance-unnecessary-value-param): pybind11 wants it so
   try {
     if (thrown) std::rethrow_exception(thrown);
   } catch (const UsageError& error) {
