@@ -98,8 +98,9 @@ void check_load_options(const LoadOptions& options);
 /// were read. Throws Error naming `path` and what is wrong: missing, a directory, empty, truncated or
 /// damaged, no known format, 0 × 0, larger than memory or 2^31 samples, nothing but missing samples, heights
 /// beyond float, several parts without `part`, channels that differ without `channel`, a cell size in degrees
-/// without `texel` (the message gives it in metres), written to while it was read; UsageError as
-/// check_load_options does, and for a `part` or `channel` that the file does not have.
+/// without `texel` or `degrees_in_metres` (the message gives it in metres), raw samples without `size`,
+/// written to while it was read; UsageError as check_load_options does, and for a `part` or `channel` that
+/// the file does not have.
 LoadedHeightmap load_heightmap(const std::filesystem::path& path, const LoadOptions& options,
                                std::uint64_t memory_limit);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "comparison/sky_comparison.h"
 #include "files/image_file.h"
 #include "plot/error_pictures.h"
 #include "plot/form_plot.h"
@@ -54,7 +55,8 @@ void draw_comparison(StagedFolder& folder, const ReportInput& input, Plots& plot
   });
   plots.draw(folder, {"sky_light.png"}, [&](const auto& paths) {
     plot_rendered(paths[0], comparison.sky_light,
-                  {.title = input.map_name + ": direct light of " + input.reference.sky.label,
+                  {.title = fmt::format("{}: direct light of {}, {:g} E/π", input.map_name,
+                                        input.reference.sky.label, kSkyExposure),
                    .columns = (comparison.sky_light.size() + 1) / 2});
   });
   plots.draw(folder, {"directions.png"}, [&](const auto& paths) {

@@ -73,9 +73,15 @@ class Bake {
     if (!is_wanted(options_, wanted)) throw UsageError("maps", "", "'" + name + "' was not asked for");
     const std::vector<BakedChannel> channels = baked_channels(wanted, material_, options_);
     std::vector<float> values(channels.size() * surface_->map.height.size());
-    for (std::size_t c = 0; c < channels.size(); ++c) {
-      for (std::size_t i = 0; i < surface_->map.height.size(); ++i)
-        values[i * channels.size() + c] = channels[c].value(i);
+    {
+      const py::gil_scoped_release release;
+      parallel_for(surface_->height(), [&](std::int64_t row) {
+        const std::size_t begin = surface_->map.height.index(static_cast<int>(row), 0);
+        for (std::size_t i = begin; i < begin + static_cast<std::size_t>(surface_->width()); ++i) {
+          for (std::size_t c = 0; c < channels.size(); ++c)
+            values[i * channels.size() + c] = channels[c].value(i);
+        }
+      });
     }
     std::vector<py::ssize_t> shape{surface_->height(), surface_->width()};
     if (channels.size() > 1) shape.push_back(static_cast<py::ssize_t>(channels.size()));

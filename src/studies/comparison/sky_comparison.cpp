@@ -5,8 +5,7 @@
 namespace heightlight {
 namespace {
 
-constexpr float kExposure = 0.6F;  // of pictures: slopes toward a sun are brighter than a level plane
-constexpr int kOpenRows = 32;      // of the prefiltered sky: 5.6°, where irradiance hardly changes
+constexpr int kOpenRows = 32;  // of the prefiltered sky: 5.6°, where irradiance hardly changes
 
 /// Red, green and blue as maps.
 std::array<Map, 3> channels_of(const Image<Vector3>& light) {
@@ -25,7 +24,7 @@ RenderedForm render(const std::string& title, const std::string& label, const Im
   rendered.reflected = channels_of(light);
   for (Map& channel : rendered.reflected) {
     channel = thin_out(channel);
-    for (float& value : channel.values) value *= kExposure;
+    for (float& value : channel.values) value *= kSkyExposure;
   }
   return rendered;
 }

@@ -15,6 +15,9 @@ namespace heightlight {
 inline constexpr const char* kByNormal = "by normal";
 inline constexpr const char* kByBentNormal = "by bent normal";
 
+/// Pictures show so much of E/π: slopes toward a sun are brighter than a level plane.
+inline constexpr float kSkyExposure = 0.6F;
+
 /// What some word for the light of a sky errs by.
 struct SkyLightResult {
   std::string variant;  ///< what was made of AO; empty: the method's own
