@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "heightlight/curves.h"
+#include "heightlight/georeference.h"
 #include "heightlight/heightmap.h"
 #include "heightlight/sky_light.h"
 #include "heightlight/transport.h"
@@ -24,7 +25,7 @@ struct LoadOptions {
   std::optional<double> relief_share = {};  ///< > 0; the same over the width. Excludes `relief`
   std::optional<double> width = {};  ///< > 0; extent of the columns, world units. Default 1. Excludes `texel`
   std::optional<Spacing> texel =
-      {};  ///< spacing; default an Esri grid's cell size, a GeoTIFF's pixel scale, else width / columns
+      {};  ///< spacing; default what the file tells, in the unit of its heights, else width / columns
   std::optional<Boundary> boundary = {};    ///< default `open` where the file tells a spacing, else `tile`
   std::optional<double> no_data = {};       ///< the value, as stored in the file, that means "missing"
   std::optional<std::string> part = {};     ///< of an EXR of several: name (any case) or 0-based index
@@ -38,7 +39,7 @@ struct LoadOptions {
   std::optional<double> scale = {};
   std::optional<double> offset =
       {};                          ///< height of a stored 0, world units; with a scale of 1 where it is alone
-  bool degrees_in_metres = false;  ///< a spacing in degrees is turned into metres at the middle latitude
+  bool degrees_in_metres = false;  ///< the file must tell a spacing in degrees, which becomes metres
   int shrink = 1;       ///< means of shrink × shrink samples take their place; must divide both sides
   bool invert = false;  ///< the file holds depths: the highest value is the lowest place
 };
@@ -76,6 +77,8 @@ struct Warning {
 
 struct LoadedHeightmap {
   Heightmap map;
+  std::optional<Georeference> place =
+      {};  ///< absent where the file tells none: it is no terrain, or a bare array
   SourceFacts facts;
   std::vector<Warning> warnings;  ///< most weighty first
 };
@@ -97,9 +100,9 @@ void check_load_options(const LoadOptions& options);
 /// the header's size before samples are read. The file is opened once: its checksum is that of the bytes that
 /// were read. Throws Error naming `path` and what is wrong: missing, a directory, empty, truncated or
 /// damaged, no known format, 0 × 0, larger than memory or 2^31 samples, nothing but missing samples, heights
-/// beyond float, several parts without `part`, channels that differ without `channel`, a cell size in degrees
-/// without `texel` or `degrees_in_metres` (the message gives it in metres), raw samples without `size`,
-/// written to while it was read; UsageError as check_load_options does, and for a `part` or `channel` that
+/// beyond float, several parts without `part`, channels that differ without `channel`, without `texel` a
+/// GeoTIFF whose place is rotated, odd or contradicts itself (georeference.h) or lengths in feet beside heights
+/// of an unknown unit, raw samples without `size`, written to while it was read; UsageError as check_load_options does, and for a `part` or `channel` that
 /// the file does not have.
 LoadedHeightmap load_heightmap(const std::filesystem::path& path, const LoadOptions& options,
                                std::uint64_t memory_limit);

@@ -26,21 +26,26 @@ namespace {
 InputGuard guard_inputs(const BakeCommand& command, const BakeInputs& listed) {
   std::vector<std::filesystem::path> files = listed.left_out;
   files.emplace_back(command.albedo);
-  for (const BakeInput& input : listed.inputs) files.push_back(input.path);
+  for (const BakeInput& input : listed.inputs) {
+    files.push_back(input.path);
+    files.push_back(std::filesystem::path(input.path).replace_extension(".prj"));
+  }
   return files;
 }
 
-/// Before anything is baked: no map's files replace any map.
+/// Before anything is baked: all can be, and no map's files replace any map.
 void check_batch(const BakeCommand& command, const BakeInputs& listed, const InputGuard& guard) {
   for (const BakeInput& input : listed.inputs) {
-    for (const std::string& name : baked_files(input.name, command.options))
-      guard.check(command.folder / name);
+    BakeOptions options = options_for(command, input.path);
+    for (const std::string& name : baked_files(input.name, options)) guard.check(command.folder / name);
+    options.albedo.constant.resize(3);  // how many channels it has, a file may have to tell
+    check_bake_options(options);
   }
 }
 
 BakeOutcome bake_file(const BakeCommand& command, const BakeInput& input, const InputGuard& guard,
                       bool quiet) {
-  BakeOptions options = command.options;
+  BakeOptions options = options_for(command, input.path);
   options.watch = terminal_watch(quiet);
   LoadedHeightmap loaded = load_heightmap(input.path, command.load, command.run.memory);
   ReadAlbedo albedo = read_albedo(command.albedo, loaded.map, command.run.memory);
@@ -51,7 +56,7 @@ BakeOutcome bake_file(const BakeCommand& command, const BakeInput& input, const 
                           .falloff = falloff_named(command.falloff)};
   }
   options.surface = surface_of(command, loaded.facts.sha256);
-  options.request = request_of(command, loaded.facts.sha256, albedo.sha256);
+  options.request = request_of(command, options, loaded.facts.sha256, albedo.sha256);
   const BakeTarget target{
       .source = input.path, .inputs = guard, .folder = command.folder, .name = input.name};
   return name_errors(input.path, [&] { return bake_material(std::move(loaded), options, target); });
@@ -128,16 +133,11 @@ void bake(BakeCommand& command) {
 
 void add_texture_options(CLI::App& app, BakeCommand& command) {
   BakeOptions& options = command.options;
-  app.add_option_function<std::string>(
-         "--format",
-         [&options](const std::string& text) {
-           options.format = text == "exr"   ? TextureFormat::exr
-                            : text == "tif" ? TextureFormat::tif
-                                            : TextureFormat::png;
-         },
-         "png (default), exr or tif")
-      ->check(CLI::IsMember({"png", "exr", "tif"}));
-  app.add_option("--depth", command.depth, "8, 16 (default), half or float (default of EXR)")
+  app.add_option(
+         "--format", command.format,
+         "png (default of materials), exr, tif (default of terrain: a GeoTIFF at the same place), or asc")
+      ->check(CLI::IsMember({"png", "exr", "tif", "asc"}));
+  app.add_option("--depth", command.depth, "8, 16 (default), half or float (default of EXR and of terrain)")
       ->check(CLI::IsMember({"8", "16", "half", "float"}));
   app.add_flag("--dither", options.dither, "blue noise instead of rounding, for --depth 8");
   app.add_option_function<std::string>(

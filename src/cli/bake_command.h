@@ -22,6 +22,7 @@ struct BakeCommand {
   std::string albedo = "0.5";
   std::string max_distance;
   std::string falloff = "none";
+  std::string format;  ///< empty: GeoTIFF of terrain, PNG of materials
   std::string depth;
   bool skip_existing = false;
   std::string pattern;
@@ -30,9 +31,12 @@ struct BakeCommand {
 /// Reads the texts, all that does not depend on a map. Throws UsageError for what no map can be baked with.
 void parse_bake_options(BakeCommand& command);
 
+/// The options of one map's files, whose format may hang on what that map is.
+BakeOptions options_for(const BakeCommand& command, const std::filesystem::path& map);
+
 /// All that a map's files depend on, as one text: with the checksums of the heightmap and of the albedo,
-/// where that is a file, as they were read.
-std::string request_of(const BakeCommand& command, const std::string& map_sha256,
+/// where that is a file, as they were read. `options` are those of the map.
+std::string request_of(const BakeCommand& command, const BakeOptions& options, const std::string& map_sha256,
                        const std::string& albedo_sha256);
 
 /// Of that, what the heights depend on.

@@ -5,6 +5,8 @@
 #include "cli/albedo.h"
 #include "cli/bake_command.h"
 #include "cli/reach_options.h"
+#include "files/projection_text.h"
+#include "files/terrain_file.h"
 #include "heightlight/error.h"
 #include "visibility/reach_table.h"
 
@@ -72,15 +74,29 @@ std::vector<PackedChannel> parse_packed(const std::string& text) {
   return packed;
 }
 
-void parse_depth(const std::string& text, BakeOptions& options) {
+TextureFormat parse_format(const std::string& text) {
+  return text == "exr"   ? TextureFormat::exr
+         : text == "tif" ? TextureFormat::tif
+         : text == "asc" ? TextureFormat::asc
+                         : TextureFormat::png;
+}
+
+TextureDepth parse_depth(const std::string& text, TextureFormat format, bool is_terrain) {
   if (text.empty()) {
-    options.depth = options.format == TextureFormat::exr ? TextureDepth::real : TextureDepth::uint16;
-  } else {
-    options.depth = text == "8"      ? TextureDepth::uint8
-                    : text == "16"   ? TextureDepth::uint16
-                    : text == "half" ? TextureDepth::half
-                                     : TextureDepth::real;
+    const bool is_real = format == TextureFormat::exr || format == TextureFormat::asc ||
+                         (format == TextureFormat::tif && is_terrain);
+    return is_real ? TextureDepth::real : TextureDepth::uint16;
   }
+  return text == "8"      ? TextureDepth::uint8
+         : text == "16"   ? TextureDepth::uint16
+         : text == "half" ? TextureDepth::half
+                          : TextureDepth::real;
+}
+
+/// What the file tells a place of, or the user a spacing and that nothing lies beyond it.
+bool is_terrain(const LoadOptions& load, const std::filesystem::path& map) {
+  if (load.texel && load.boundary == Boundary::open) return true;
+  return load.boundary != Boundary::tile && is_terrain_file(map);
 }
 
 }  // namespace
@@ -94,7 +110,6 @@ void parse_bake_options(BakeCommand& command) {
   if (options.maps.empty() && options.packed.empty()) {
     options.maps = {MaterialMap::ao, MaterialMap::normal, MaterialMap::bent_normal};
   }
-  parse_depth(command.depth, options);
   options.memory = command.run.memory;
   options.seed = command.run.seed;
   if (command.falloff != "none" && command.max_distance.empty()) {
@@ -104,9 +119,15 @@ void parse_bake_options(BakeCommand& command) {
     check_reach({.distance = parse_distance("max_distance", command.max_distance, 1)});
   check_load_options(command.load);
   check_albedo(command.albedo);
-  BakeOptions any_albedo = options;  // how many channels it has, a file may have to tell
-  any_albedo.albedo.constant.resize(3);
-  check_bake_options(any_albedo);
+}
+
+BakeOptions options_for(const BakeCommand& command, const std::filesystem::path& map) {
+  BakeOptions options = command.options;
+  const bool terrain = is_terrain(command.load, map);
+  options.format = command.format.empty() && terrain ? TextureFormat::tif : parse_format(command.format);
+  options.depth = parse_depth(command.depth, options.format, terrain);
+  if (options.format == TextureFormat::asc) options.projection = read_projection_text(map);
+  return options;
 }
 
 }  // namespace heightlight

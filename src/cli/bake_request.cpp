@@ -12,9 +12,8 @@
 
 namespace heightlight {
 
-std::string request_of(const BakeCommand& command, const std::string& map_sha256,
+std::string request_of(const BakeCommand& command, const BakeOptions& options, const std::string& map_sha256,
                        const std::string& albedo_sha256) {
-  const BakeOptions& options = command.options;
   return request_key({{"version", HEIGHTLIGHT_VERSION},
                       {"map", map_sha256},
                       {"load", describe_load_options(command.load)},
@@ -41,7 +40,8 @@ std::string surface_of(const BakeCommand& command, const std::string& map_sha256
 }
 
 bool is_baked(const BakeCommand& command, const BakeInput& input) {
-  const std::vector<std::string> names = baked_files(input.name, command.options);
+  const BakeOptions options = options_for(command, input.path);
+  const std::vector<std::string> names = baked_files(input.name, options);
   const std::filesystem::path sidecar = command.folder / names.back();
   std::error_code ignored;
   const bool all_there = std::all_of(names.begin(), names.end(), [&](const std::string& name) {
@@ -50,13 +50,13 @@ bool is_baked(const BakeCommand& command, const BakeInput& input) {
   if (!all_there) return false;
   const bool albedo_file = std::filesystem::is_regular_file(command.albedo, ignored);
   const std::string wanted =
-      request_of(command, sha256_of_file(input.path),
+      request_of(command, options, sha256_of_file(input.path),
                  albedo_file ? sha256_of_file(std::filesystem::path(command.albedo)) : "");
   try {
     const nlohmann::json json = read_json(sidecar);
     const auto files = parse_file_records(json);
     if (!files || !json.contains("request") || json["request"] != wanted) return false;
-    if (files->size() < texture_suffixes(command.options).size()) return false;
+    if (files->size() < texture_suffixes(options).size()) return false;
     return std::all_of(files->begin(), files->end(),
                        [&](const FileRecord& file) { return is_as_recorded(command.folder, file); });
   } catch (const Cancelled&) {

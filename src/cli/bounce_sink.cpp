@@ -25,8 +25,8 @@ Reach obscurance_reach(const SimulateOptions& options, const Surface& surface) {
 }  // namespace
 
 SimulationSink::SimulationSink(const Surface& surface, const Albedo& albedo, const SimulateOptions& options,
-                               StagedFolder& folder)
-    : surface_(surface), albedo_(albedo), options_(options), folder_(folder) {
+                               const MapFolder& output)
+    : surface_(surface), albedo_(albedo), options_(options), output_(output) {
   if (!options.obscurance.empty()) reach_ = obscurance_reach(options, surface);
 }
 
@@ -36,8 +36,8 @@ void SimulationSink::take_sky(const Map& ambient_occlusion, const Map& sky_view_
 }
 
 void SimulationSink::take_links(const FormFactors& form_factors) {
-  if (options_.save_links) write_form_factors(folder_.file("links.npz"), form_factors);
-  if (reach_) write_transfer(folder_, find_ambient_transfer(surface_, form_factors, *reach_, albedo_));
+  if (options_.save_links) write_form_factors(output_.folder.file("links.npz"), form_factors);
+  if (reach_) write_transfer(output_, find_ambient_transfer(surface_, form_factors, *reach_, albedo_));
 }
 
 void SimulationSink::take_bounce(int b, const TexelVector& irradiance) {
@@ -45,7 +45,7 @@ void SimulationSink::take_bounce(int b, const TexelVector& irradiance) {
   sky_->add(irradiance);
   if (b < kPreviewedBounces) first_.push_back(to_map(irradiance, surface_));
   if (!options_.save_bounces) return;
-  write_map(folder_, bounce_file(b), to_map(irradiance, surface_),
+  write_map(output_, std::filesystem::path(bounce_file(b)).stem().string(), to_map(irradiance, surface_),
             "E_b / pi at albedo 1, b = " + std::to_string(b));
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cli/simulation.h"
+#include "cli/simulation_files.h"
 #include "files/staged_output.h"
 #include "heightlight/curves.h"
 #include "heightlight/solve.h"
@@ -15,7 +16,7 @@ class SimulationSink : public BounceSink {
  public:
   /// All four must outlive it. Throws UsageError for an obscurance that passes half of a tiling map.
   SimulationSink(const Surface& surface, const Albedo& albedo, const SimulateOptions& options,
-                 StagedFolder& folder);
+                 const MapFolder& output);
 
   void take_sky(const Map& ambient_occlusion, const Map& sky_view_factor) override;
   void take_links(const FormFactors& form_factors) override;
@@ -34,7 +35,7 @@ class SimulationSink : public BounceSink {
   const Surface& surface_;
   const Albedo& albedo_;
   const SimulateOptions& options_;
-  StagedFolder& folder_;
+  const MapFolder& output_;
   std::optional<Reach> reach_;  ///< of the obscurance, where that is asked for
   std::optional<CurveBuilder> alpha_;
   std::optional<CurveBuilder> sky_;

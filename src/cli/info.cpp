@@ -30,6 +30,33 @@ void report_file(const std::filesystem::path& path, const SourceFacts& facts) {
   fmt::print("sha256     {}\n", facts.sha256);
 }
 
+/// Where it lies, as far as the file says it.
+void report_place(const Georeference& place) {
+  if (place.corner) {
+    fmt::print("place      upper left corner at {:.12g}, {:.12g}{}\n", (*place.corner)[0], (*place.corner)[1],
+               place.system.empty() ? "" : " in " + printable(place.system));
+  } else {
+    fmt::print("place      not told\n");
+  }
+  if (place.height_metres) fmt::print("heights in units of {:.9g} m\n", *place.height_metres);
+}
+
+/// Whether it is terrain or a material, and why.
+void report_kind(const LoadedHeightmap& loaded) {
+  if (!loaded.place) {
+    fmt::print("kind       material: its file tells no distance between samples\n");
+    return;
+  }
+  const Georeference& place = *loaded.place;
+  const std::string unit = place.in_degrees       ? " degrees"
+                           : !place.metres        ? ", in a unit that it does not tell: that of its heights"
+                           : *place.metres == 1.0 ? " m"
+                                                  : fmt::format(" units of {:.9g} m", *place.metres);
+  fmt::print("kind       terrain: its file tells the distance between samples, {:.9g} x {:.9g}{}\n",
+             place.cell.x, place.cell.y, unit);
+  report_place(place);
+}
+
 void report_map(const Heightmap& map, const EdgeSteps& steps) {
   const int columns = map.height.width;
   const int rows = map.height.height;
@@ -59,6 +86,7 @@ void run_info(MapOptions& map_options, RunOptions& run_options) {
   const LoadedHeightmap loaded = load_heightmap(map_options.path, map_options.load, run_options.memory);
   if (run_options.quiet) return;
   report_file(map_options.path, loaded.facts);
+  report_kind(loaded);
   report_map(loaded.map, measure_edge_steps(loaded.map.height));
   for (const Warning& warning : loaded.warnings)
     fmt::print("warning    {}\n", printable(user_message(warning)));
@@ -78,7 +106,9 @@ void add_info_command(CLI::App& app) {
       "Examples:\n"
       "  heightlight info bricks.png\n"
       "  heightlight info bricks.png --width 2 --relief 0.05\n"
-      "  heightlight info dem.tif --texel 50 --boundary open --no-data -9999\n"
+      "  heightlight info dem.tif                                what its tags say, and whether it is "
+      "terrain\n"
+      "  heightlight info scan.tif --texel 50 --boundary open --no-data -9999\n"
       "  heightlight info scan.exr --channel Z");
   command->callback([map_options, run_options] { run_info(*map_options, *run_options); });
 }

@@ -80,13 +80,13 @@ CurvePlotInput curve_plot(const SimulateOptions& options, const Surface& surface
           .title = printable(options.map.path.filename())};
 }
 
-void write_maps(StagedFolder& folder, const Surface& surface, const Results& results,
+void write_maps(const MapFolder& output, const Surface& surface, const Results& results,
                 const SimulationSink& sink) {
   std::vector<Map> totals;
   for (const TexelVector& values : results.totals[0]) totals.push_back(to_map(values, surface));
-  write_occlusion(folder, results);
-  write_totals(folder, totals);
-  write_pictures(folder, surface, results, sink.first(), totals);
+  write_occlusion(output, results);
+  write_totals(output, totals);
+  write_pictures(output.folder, surface, results, sink.first(), totals);
 }
 
 }  // namespace
@@ -128,7 +128,8 @@ Simulation simulate_map(const SimulateOptions& options, Plots& plots, const Watc
   const Albedo albedo = read_input_albedo(options, surface.map);
   seconds.load = lap.lap();
 
-  SimulationSink sink(surface, albedo, options, folder);
+  const MapFolder output{.folder = folder, .place = loaded.place};
+  SimulationSink sink(surface, albedo, options, output);
   const Results results = name_errors(options.map.path, [&] {
     Request request = make_request(options, albedo, watch);
     request.limits.memory = memory_to_solve(options, surface, albedo);
@@ -147,7 +148,7 @@ Simulation simulate_map(const SimulateOptions& options, Plots& plots, const Watc
                [&](const auto& paths) { plot_curves(paths[0], paths[1], input); });
   }
   seconds.curves = results.evidence.seconds.sink + lap.lap();
-  write_maps(folder, surface, results, sink);
+  write_maps(output, surface, results, sink);
   seconds.output = lap.lap();
   seconds.total = total.lap();
   simulation.files = folder.written();

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "files/staged_output.h"
+#include "heightlight/georeference.h"
 #include "heightlight/solve.h"
 #include "heightlight/surface.h"
 
@@ -13,17 +15,23 @@ namespace heightlight {
 /// since what an earlier run kept is the next one's.
 std::vector<std::string> simulation_file_names(int bounces);
 
+/// Where maps go: each as NAME.exr, and of terrain as the GeoTIFF NAME.tif, too.
+struct MapFolder {
+  StagedFolder& folder;
+  const std::optional<Georeference>& place;
+};
+
 /// One float map, channel Y; `meaning` goes into its header. Throws OutputError.
-void write_map(StagedFolder& folder, const std::string& name, const Map& map, const std::string& meaning);
+void write_map(const MapFolder& output, const std::string& name, const Map& map, const std::string& meaning);
 
-/// `irradiance_total.exr`: one map, Y, or three, R, G, B. Throws OutputError.
-void write_totals(StagedFolder& folder, const std::vector<Map>& totals);
+/// `irradiance_total`: one map, Y, or three, R, G, B. Throws OutputError.
+void write_totals(const MapFolder& output, const std::vector<Map>& totals);
 
-/// `obscurance.exr` and `ambient_transfer.exr`. Throws OutputError.
-void write_transfer(StagedFolder& folder, const AmbientTransfer& found);
+/// `obscurance` and `ambient_transfer`. Throws OutputError.
+void write_transfer(const MapFolder& output, const AmbientTransfer& found);
 
-/// `ambient_occlusion.exr` and `sky_view_factor.exr`. Throws OutputError.
-void write_occlusion(StagedFolder& folder, const Results& results);
+/// `ambient_occlusion` and `sky_view_factor`. Throws OutputError.
+void write_occlusion(const MapFolder& output, const Results& results);
 
 /// The previews. Throws OutputError.
 void write_pictures(StagedFolder& folder, const Surface& surface, const Results& results,

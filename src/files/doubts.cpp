@@ -41,8 +41,7 @@ void doubt_relief(const Heightmap& map, const StoredHeights& stored, const LoadO
   const double tall = relief(map);
   const double width = map.height.width * map.spacing.x;
   const double extent = std::max(width, map.height.height * map.spacing.y);
-  const bool spacing_known =
-      options.width || options.texel || stored.grid || (stored.tiff && stored.tiff->pixel_scale);
+  const bool spacing_known = options.width || options.texel || stored.place;
   const bool as_it_is = !spacing_known && !options.relief && !options.relief_share;
   const double slope = median_slope_deg(map);
   if (tall == 0) {

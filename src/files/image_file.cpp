@@ -9,6 +9,7 @@
 
 #include "files/interrupt.h"
 #include "files/output_file.h"
+#include "files/tiff_write.h"
 
 namespace heightlight {
 namespace {
@@ -70,9 +71,7 @@ void write_float_image(const std::filesystem::path& path,
                  "1970:01:01 00:00:00");  // else the time of writing: files would differ from run to run
   for (const auto& [name, text] : attributes) spec.attribute(name, text);
 
-  const std::string extension = path.extension().string();
-  const bool is_tiff = extension == ".tif" || extension == ".tiff";
-  write_oiio(path, is_tiff ? "tiff" : "openexr", spec, [&](OIIO::ImageOutput& output) {
+  write_oiio(path, "openexr", spec, [&](OIIO::ImageOutput& output) {
     constexpr int kRowsAtATime = 256;  // a multiple of the 16 rows that EXR compresses together
     for (int row = 0; row < first.height; row += kRowsAtATime) {
       throw_if_interrupted();
@@ -113,7 +112,8 @@ bool write_levels(OIIO::ImageOutput& output, int first, int last, const OIIO::Ty
 
 void write_texture(const std::filesystem::path& path, const TextureLayout& layout, const FillRows& fill) {
   const std::string extension = path.extension().string();
-  const char* format = extension == ".png" ? "png" : extension == ".exr" ? "openexr" : "tiff";
+  if (extension == ".tif") return write_tiff(path, layout, fill);
+  const char* format = extension == ".png" ? "png" : "openexr";
   const OIIO::TypeDesc type = stored_type(layout.type);
   OIIO::ImageSpec spec(layout.width, layout.height, static_cast<int>(layout.channels.size()), type);
   spec.channelnames = layout.channels;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "files/input_file.h"
+#include "heightlight/georeference.h"
 #include "heightlight/image.h"
 
 namespace heightlight {
@@ -25,7 +26,7 @@ void write_png(const std::filesystem::path& path, const Image<Rgb8>& picture);
 /// 16-bit grey, levels as given.
 void write_png16(const std::filesystem::path& path, const Image<std::uint16_t>& levels);
 
-/// float32 EXR (or TIFF, by extension) with one map per named channel ("Y", or "R", "G", "B"), all of one
+/// float32 EXR with one map per named channel ("Y", or "R", "G", "B"), all of one
 /// size. `attributes` are text attributes of the header. NaN is kept.
 void write_float_image(const std::filesystem::path& path,
                        const std::vector<std::pair<std::string, const Map*>>& channels,
@@ -34,13 +35,21 @@ void write_float_image(const std::filesystem::path& path,
 /// How samples are stored.
 enum class SampleType { uint8, uint16, half, real };
 
+/// What a band of a GeoTIFF says of itself.
+struct BandText {
+  std::string description = {};
+  std::string unit = {};
+};
+
 /// What a texture file is to hold.
 struct TextureLayout {
   int width = 0;
   int height = 0;
-  std::vector<std::string> channels;  ///< "Y", or "R", "G", …; channels named "A" are no coverage
+  std::vector<std::string> channels = {};  ///< "Y", or "R", "G", …; channels named "A" are no coverage
   SampleType type = SampleType::uint16;
-  std::vector<std::pair<std::string, std::string>> attributes;  ///< text, where the format has it
+  std::vector<std::pair<std::string, std::string>> attributes = {};  ///< text, where the format has it
+  const Georeference* place = nullptr;                               ///< of a TIFF: where on earth it lies
+  std::vector<BandText> bands = {};  ///< of a TIFF with a place: of each channel, or none
 };
 
 /// Fills rows [first, first + count) with samples, channels interleaved: whole levels for integers.

@@ -6,6 +6,9 @@
 
 #include "files/degrees.h"
 #include "files/doubts.h"
+#include "files/geo_keys.h"
+#include "files/geotiff_place.h"
+#include "files/ground_spacing.h"
 #include "files/image_file.h"
 #include "files/stored_heights.h"
 #include "files/suspects.h"
@@ -25,39 +28,34 @@ void check_length(const char* quantity, const std::optional<double>& value) {
     throw UsageError(quantity, fmt::format("{:g}", *value), "must be from 1e-12 to 1e12");
 }
 
-/// What a file says of its samples' distances and place, of whatever kind it is.
-std::optional<EsriHeader> georeference(const StoredHeights& stored) {
-  if (stored.grid) return stored.grid;
-  if (!stored.tiff || !stored.tiff->pixel_scale) return std::nullopt;
-  EsriHeader place;
-  place.columns = stored.values.width;
-  place.rows = stored.values.height;
-  place.cell_x = (*stored.tiff->pixel_scale)[0];
-  place.cell_y = (*stored.tiff->pixel_scale)[1];
-  place.west = stored.tiff->west;
-  if (stored.tiff->north) place.south = *stored.tiff->north - place.rows * place.cell_y;
-  return place;
+/// Notes what heights tell of a place whose file does not say whether it is in degrees.
+void judge_place(StoredHeights& stored) {
+  if (!stored.place || stored.place->in_degrees || stored.place->metres) return;
+  const double span = stored.facts.highest - stored.facts.lowest;
+  stored.place->in_degrees =
+      looks_like_degrees(*stored.place, stored.values.width, stored.values.height, span);
 }
 
-Spacing choose_spacing(const InputFile& file, const LoadOptions& options, const StoredHeights& stored) {
+/// What is made of the map has the no-data value that its file has, or the one that it was read with.
+void note_no_data(const std::optional<double>& no_data, Georeference& place) {
+  if (no_data && !find_tag(place.tags, kGdalNoDataTag))
+    place.tags.push_back(make_tag(kGdalNoDataTag, fmt::format("{:.17g}", *no_data)));
+}
+
+/// A place that cannot be used is no obstacle where the spacing is given; it is left out then.
+void check_place(const InputFile& file, const LoadOptions& options, StoredHeights& stored) {
+  if (stored.place_fault.empty()) return;
+  if (!options.texel) throw file.error(stored.place_fault + "; or give the spacing", "texel");
+  stored.warnings.push_back({stored.place_fault + ": its place was left out"});
+}
+
+Spacing choose_spacing(const InputFile& file, const LoadOptions& options, StoredHeights& stored) {
   if (options.texel) return *options.texel;
+  if (options.degrees_in_metres && !(stored.place && stored.place->in_degrees) && !options.width)
+    throw file.error("does not tell a spacing in degrees, which texel auto would turn into metres", "texel");
   const double columns = stored.values.width;
   Spacing cell{1 / columns, 1 / columns};
-  if (const std::optional<EsriHeader> place = georeference(stored)) {
-    cell = {place->cell_x, place->cell_y};
-    const bool said = stored.in_degrees || (stored.tiff && stored.tiff->in_degrees);
-    if (said && !place->south) throw file.error("its pixel scale is in degrees; give it in metres", "texel");
-    if (said || is_in_degrees(*place, stored.facts.highest - stored.facts.lowest)) {
-      const Spacing metres = cell_in_metres(*place);
-      if (options.degrees_in_metres) return metres;
-      const std::string texel = fmt::format("{:.4g}x{:.4g}", metres.x, metres.y);
-      throw file.error("its cell size is in degrees; give the spacing in metres, which is " + texel +
-                           " at its middle latitude",
-                       "texel " + texel);
-    }
-  }
-  if (options.degrees_in_metres && !options.width)
-    throw file.error("does not tell a spacing in degrees, which texel auto would turn into metres", "texel");
+  if (stored.place) cell = spacing_on_ground(file, *stored.place, stored.values.height, stored.warnings);
   if (options.width) cell = {*options.width / columns, *options.width / columns * (cell.y / cell.x)};
   return cell;
 }
@@ -116,8 +114,10 @@ LoadedHeightmap load_heightmap(const std::filesystem::path& path, const LoadOpti
 
   LoadedHeightmap loaded;
   Heightmap& map = loaded.map;
+  check_place(file, options, stored);
+  judge_place(stored);
   map.spacing = choose_spacing(file, options, stored);
-  map.boundary = options.boundary.value_or(georeference(stored) ? Boundary::open : Boundary::tile);
+  map.boundary = options.boundary.value_or(stored.place ? Boundary::open : Boundary::tile);
   std::optional<double> relief = options.relief;
   const double width = map.spacing.x * stored.values.width;
   if (options.relief_share) relief = *options.relief_share * width;
@@ -131,6 +131,10 @@ LoadedHeightmap load_heightmap(const std::filesystem::path& path, const LoadOpti
   if (!relief)
     map.base = (invert ? -stored.facts.highest : stored.facts.lowest) * scale + options.offset.value_or(0);
   if (options.shrink != 1) map = shrink(map, options.shrink);
+  if (stored.place) {
+    loaded.place = shrink_place(*stored.place, options.shrink);
+    note_no_data(options.no_data ? options.no_data : stored.facts.declared_no_data, *loaded.place);
+  }
 
   for (const std::vector<Warning>& more : {find_doubts(map, stored, options), stored.warnings})
     loaded.warnings.insert(loaded.warnings.end(), more.begin(), more.end());

@@ -18,7 +18,7 @@ OutputError output_error(const std::filesystem::path& path, int error_number) {
 
 void write_file(const std::filesystem::path& path, const std::function<void(std::FILE*)>& write) {
   errno = 0;
-  const File file(std::fopen(path.c_str(), "wb"));
+  const File file(std::fopen(path.c_str(), "w+b"));
   if (!file) throw output_error(path, errno);
   try {
     write(file.get());

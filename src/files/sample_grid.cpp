@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "files/geo_keys.h"
 #include "files/map_size.h"
 #include "files/printable.h"
 
@@ -194,24 +195,28 @@ bool is_srtm(const InputFile& file) {
   return extension == ".hgt" && srtm_side(file) > 0;
 }
 
+std::optional<Georeference> srtm_place(const InputFile& file) {
+  const int side = srtm_side(file);
+  const std::string name = file.path().filename().string();
+  const std::optional<double> south = parse_degrees(name, 0, 2, "NS");
+  const std::optional<double> west = parse_degrees(name, 3, 3, "EW");
+  if (side == 0 || !south || !west) return std::nullopt;
+  // The outermost samples lie on the degree's border: their cells reach half a cell beyond it.
+  const double cell = 1.0 / (side - 1);
+  Georeference place{.corner = {{*west - cell / 2, *south + 1 + cell / 2}},
+                     .cell = {cell, cell},
+                     .in_degrees = true,
+                     .system = "EPSG:4326"};
+  place.tags = make_geo_tags(place);
+  return place;
+}
+
 SampleGrid read_srtm(const InputFile& file, std::uint64_t memory_limit) {
   const int side = srtm_side(file);
   if (side == 0) throw file.error("is no SRTM tile: these have 1201 or 3601 samples a side");
   SampleGrid grid = read_samples(
       file, {.type = find_type("i2"), .width = side, .height = side, .big_endian = true}, memory_limit);
-  const std::string name = file.path().filename().string();
-  const std::optional<double> south = parse_degrees(name, 0, 2, "NS");
-  const std::optional<double> west = parse_degrees(name, 3, 3, "EW");
-  if (!south || !west) return grid;
-  // The outermost samples lie on the degree's border: their cells reach half a cell beyond it.
-  const double cell = 1.0 / (side - 1);
-  grid.place = {.columns = side,
-                .rows = side,
-                .cell_x = cell,
-                .cell_y = cell,
-                .west = *west - cell / 2,
-                .south = *south - cell / 2,
-                .no_data = {}};
+  grid.place = srtm_place(file);
   return grid;
 }
 

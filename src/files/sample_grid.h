@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "files/esri_grid.h"
 #include "files/input_file.h"
+#include "heightlight/georeference.h"
 #include "heightlight/image.h"
 
 namespace heightlight {
@@ -17,7 +17,7 @@ struct SampleGrid {
   int bits = 0;
   bool is_integer = false;
   Image<double> values;
-  std::optional<EsriHeader> place;  ///< of an SRTM tile whose name says it; cells in degrees
+  std::optional<Georeference> place;  ///< of an SRTM tile whose name says it
 };
 
 /// Reads an array that numpy.save wrote: two dimensions (rows, columns) of integers or floats of 8 to 64
@@ -29,6 +29,9 @@ SampleGrid read_numpy(const InputFile& file, std::uint64_t memory_limit);
 /// or 3601 a side, in cells of 3″ or 1″ whose outermost lie on the degree's border; −32768 is missing. A name
 /// such as N45E006.hgt says the south-western corner. Throws Error naming the file that has another size.
 SampleGrid read_srtm(const InputFile& file, std::uint64_t memory_limit);
+
+/// Where such a tile lies, by its name; nothing where the name does not say.
+std::optional<Georeference> srtm_place(const InputFile& file);
 
 /// Whether a file is such a tile, by its name and size.
 bool is_srtm(const InputFile& file);

@@ -5,15 +5,27 @@
 #include <limits>
 
 #include "files/channel.h"
+#include "files/esri_grid.h"
+#include "files/geo_keys.h"
 #include "files/image_read.h"
 #include "files/level_count.h"
 #include "files/named.h"
 #include "files/no_data.h"
+#include "files/projection_text.h"
 #include "files/sample_grid.h"
 #include "heightlight/error.h"
 
 namespace heightlight {
 namespace {
+
+Georeference place_of(const InputFile& file, const EsriHeader& header) {
+  Georeference place{.cell = {header.cell_x, header.cell_y}};
+  if (header.west && header.south)
+    place.corner = {{*header.west, *header.south + header.rows * header.cell_y}};
+  note_projection(read_projection_text(file.path()), place);
+  place.tags = make_geo_tags(place);
+  return place;
+}
 
 StoredHeights read_grid(const InputFile& file, const LoadOptions& options, std::uint64_t memory_limit) {
   if (options.part) throw UsageError(file.path().string() + ": has no parts; only EXR files have");
@@ -25,7 +37,7 @@ StoredHeights read_grid(const InputFile& file, const LoadOptions& options, std::
   stored.facts.sample_type = "text";
   stored.facts.declared_no_data = grid.header.no_data;
   stored.values = std::move(grid.values);
-  stored.grid = grid.header;
+  stored.place = place_of(file, grid.header);
   return stored;
 }
 
@@ -53,8 +65,7 @@ StoredHeights read_sample_file(const InputFile& file, FileFormat format, const L
   const bool is_elevation = format == FileFormat::srtm || (options.texel && is_signed);
   stored.facts.is_stretched = grid.is_integer && !is_elevation;
   stored.values = std::move(grid.values);
-  stored.grid = grid.place;
-  stored.in_degrees = grid.place.has_value();
+  stored.place = grid.place;
   constexpr double kSrtmVoid = -32768;
   if (format == FileFormat::srtm) stored.facts.declared_no_data = kSrtmVoid;
   return stored;
@@ -62,9 +73,9 @@ StoredHeights read_sample_file(const InputFile& file, FileFormat format, const L
 
 /// Integers without a unit are stretched; those of a digital elevation model are metres.
 bool is_elevation(const StoredImage& image, const LoadOptions& options) {
-  if (!image.tiff || image.bits < 16) return false;
+  if (!image.tiff) return false;
   const bool is_signed = image.sample_type.starts_with("int");
-  return image.tiff->pixel_scale || (options.texel && (is_signed || image.tiff->no_data));
+  return image.tiff->place.place || (options.texel && image.bits >= 16 && (is_signed || image.tiff->no_data));
 }
 
 void take_no_data_tag(StoredHeights& stored) {
@@ -93,6 +104,8 @@ StoredHeights read_picture(const InputFile& file, FileFormat format, const LoadO
   stored.facts.is_stretched = image.is_integer && !is_elevation(image, options);
   stored.tiff = image.tiff;
   if (!image.tiff) return stored;
+  stored.place = image.tiff->place.place;
+  stored.place_fault = image.tiff->place.fault;
   take_no_data_tag(stored);
   stored.facts.white_is_zero = image.is_integer && image.tiff->white_is_zero;
   return stored;
@@ -101,7 +114,7 @@ StoredHeights read_picture(const InputFile& file, FileFormat format, const LoadO
 /// Esri's software reads -9999 as missing where a grid's header names no other value.
 void assume_esri_default(StoredHeights& stored) {
   constexpr double kEsriDefault = -9999;
-  if (!stored.grid || stored.in_degrees || stored.grid->no_data) return;
+  if (stored.facts.format != to_string(FileFormat::esri_grid) || stored.facts.declared_no_data) return;
   const std::size_t dropped = drop_no_data(kEsriDefault, stored.facts.sample_type, stored.values);
   if (dropped == 0) return;
   stored.facts.declared_no_data = kEsriDefault;

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <optional>
 
-#include "files/esri_grid.h"
 #include "files/input_file.h"
 #include "files/tiff_facts.h"
 #include "heightlight/files.h"
@@ -14,9 +13,9 @@ namespace heightlight {
 struct StoredHeights {
   Image<double> values;  ///< NaN where missing
   SourceFacts facts;
-  std::optional<EsriHeader> grid;  ///< of an Esri grid, or of an SRTM tile
-  bool in_degrees = false;         ///< it is certain that the grid's cells are
-  std::optional<TiffFacts> tiff;   ///< of a TIFF
+  std::optional<Georeference> place;  ///< where it lies on earth, as far as the file says it
+  std::string place_fault;            ///< why what it says of that cannot be used; empty: it can
+  std::optional<TiffFacts> tiff;      ///< of a TIFF
   std::vector<Warning> warnings = {};
 };
 

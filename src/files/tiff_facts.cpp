@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <cstdarg>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <new>
 #include <vector>
 
+#include "files/geo_keys.h"
 #include "files/interrupt.h"
 
 namespace heightlight {
@@ -34,43 +36,40 @@ Tiff open_tiff(const InputFile& file) {
   return tiff;
 }
 
-/// Values of a tag that libtiff does not know by name, and hands out with a count of 32 bits. Nothing where a
-/// program around this one has taught it otherwise.
-template <class T>
-std::vector<T> read_values(TIFF* tiff, std::uint32_t tag, TIFFDataType type) {
-  const TIFFField* field = TIFFFindField(tiff, tag, type);
-  if (!field || TIFFFieldDataType(field) != type || !TIFFFieldPassCount(field) ||
-      TIFFFieldReadCount(field) != TIFF_VARIABLE2)
-    return {};
+/// The tags that say where a raster lies, in rising order.
+constexpr std::uint16_t kPlaceTags[] = {kPixelScaleTag,   kTiePointTag,         kTransformationTag,
+                                        kKeyDirectoryTag, kDoubleParametersTag, kTextParametersTag,
+                                        kGdalMetadataTag, kGdalNoDataTag};
+
+std::size_t bytes_of_type(TIFFDataType type) {
+  return type == TIFF_DOUBLE ? sizeof(double) : type == TIFF_SHORT ? sizeof(std::uint16_t) : 1;
+}
+
+/// A tag that libtiff does not know by name, and hands out with a count of 32 bits. A program around this one
+/// may have taught it otherwise, as GDAL does: with a count of 16 bits, or of texts, none. Nothing where the
+/// tag is absent; no bytes where its type is one that no tag of a place has.
+std::optional<GeoTag> read_tag(TIFF* tiff, std::uint16_t number) {
+  const TIFFField* field = TIFFFindField(tiff, number, TIFF_ANY);
+  if (!field) return std::nullopt;
+  const TIFFDataType type = TIFFFieldDataType(field);
+  const char* values = nullptr;
   std::uint32_t count = 0;
-  const T* values = nullptr;
-  if (!TIFFGetField(tiff, tag, &count, &values) || !values) return {};
-  return {values, values + count};
-}
-
-std::optional<std::string> read_text(TIFF* tiff, std::uint32_t tag) {
-  const std::vector<char> text = read_values<char>(tiff, tag, TIFF_ASCII);
-  if (text.empty()) return std::nullopt;
-  return std::string(text.begin(), std::find(text.begin(), text.end(), '\0'));
-}
-
-/// OGC GeoTIFF 1.1: tags 33550 (scale), 33922 (tie points: column, row, 0, x, y, 0), 34735 (keys: four
-/// shorts of header, then four for each key: number, place, count, value).
-void add_place_on_earth(TIFF* tiff, TiffFacts& facts) {
-  const std::vector<double> scale = read_values<double>(tiff, 33550, TIFF_DOUBLE);
-  if (scale.size() < 2 || !(scale[0] > 0) || !(scale[1] > 0)) return;
-  facts.pixel_scale = {scale[0], scale[1]};
-  const std::vector<double> tie = read_values<double>(tiff, 33922, TIFF_DOUBLE);
-  if (tie.size() >= 6) {
-    facts.west = tie[3] - tie[0] * scale[0];
-    facts.north = tie[4] + tie[1] * scale[1];
+  std::uint16_t short_count = 0;
+  bool found = false;
+  if (!TIFFFieldPassCount(field)) {
+    found = type == TIFF_ASCII && TIFFGetField(tiff, number, &values) && values;
+    if (found) count = static_cast<std::uint32_t>(std::strlen(values) + 1);
+  } else if (TIFFFieldReadCount(field) == TIFF_VARIABLE2) {
+    found = TIFFGetField(tiff, number, &count, &values) && values;
+  } else if (TIFFFieldReadCount(field) == TIFF_VARIABLE) {
+    found = TIFFGetField(tiff, number, &short_count, &values) && values;
+    count = short_count;
   }
-  constexpr std::uint16_t kModelType = 1024;
-  constexpr std::uint16_t kGeographic = 2;
-  const std::vector<std::uint16_t> keys = read_values<std::uint16_t>(tiff, 34735, TIFF_SHORT);
-  for (std::size_t at = 4; at + 4 <= keys.size(); at += 4) {
-    if (keys[at] == kModelType) facts.in_degrees = keys[at + 3] == kGeographic;
-  }
+  if (!found) return std::nullopt;
+  GeoTag tag{number, static_cast<std::uint16_t>(type), ""};
+  if (type == TIFF_ASCII || type == TIFF_SHORT || type == TIFF_DOUBLE)
+    tag.bytes.assign(values, count * bytes_of_type(type));
+  return tag;
 }
 
 /// A zlib stream, inflated as its pieces come and dropped.
@@ -133,9 +132,15 @@ TiffFacts read_tiff_facts(const InputFile& file) {
   TIFFGetFieldDefaulted(tiff.get(), TIFFTAG_PHOTOMETRIC, &photometric);
   facts.white_is_zero = photometric == PHOTOMETRIC_MINISWHITE;
   facts.is_cmyk_in_tiles = photometric == PHOTOMETRIC_SEPARATED && TIFFIsTiled(tiff.get());
-  constexpr std::uint32_t kNoData = 42113;
-  facts.no_data = read_text(tiff.get(), kNoData);
-  add_place_on_earth(tiff.get(), facts);
+  std::vector<GeoTag> tags;
+  for (const std::uint16_t number : kPlaceTags) {
+    if (std::optional<GeoTag> tag = read_tag(tiff.get(), number)) tags.push_back(std::move(*tag));
+  }
+  if (const GeoTag* no_data = find_tag(tags, kGdalNoDataTag); no_data && no_data->type == TIFF_ASCII)
+    facts.no_data = text_of(*no_data);
+  std::uint32_t rows = 0;
+  TIFFGetField(tiff.get(), TIFFTAG_IMAGELENGTH, &rows);
+  facts.place = read_geotiff_place(tags, static_cast<int>(rows));
   return facts;
 }
 

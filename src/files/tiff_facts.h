@@ -1,9 +1,9 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 
+#include "files/geotiff_place.h"
 #include "files/input_file.h"
 
 namespace heightlight {
@@ -13,11 +13,7 @@ struct TiffFacts {
   bool white_is_zero = false;          ///< larger numbers are darker (PhotometricInterpretation 0)
   bool is_cmyk_in_tiles = false;       ///< which ends the process within OpenImageIO 2.4
   std::optional<std::string> no_data;  ///< GDAL's tag 42113, as text
-  /// Distance between samples in the unit of its coordinates (ModelPixelScaleTag, OGC GeoTIFF 7.1).
-  std::optional<std::array<double, 2>> pixel_scale;
-  bool in_degrees = false;      ///< GTModelTypeGeoKey says geographic coordinates
-  std::optional<double> west;   ///< of the outer edge of the leftmost samples (ModelTiepointTag)
-  std::optional<double> north;  ///< of the outer edge of the uppermost
+  GeotiffPlace place;                  ///< where it lies on earth
 };
 
 /// Classic TIFF and BigTIFF, either byte order. Throws Error naming the file where its first directory cannot

@@ -102,7 +102,8 @@ class Bake {
     facts.format = "array";
     facts.sample_type = "float";
     const py::gil_scoped_release release;
-    write_material(material_, facts, options, {.source = name, .inputs = {}, .folder = folder, .name = name});
+    write_material(material_, {.facts = facts, .place = {}}, options,
+                   {.source = name, .inputs = {}, .folder = folder, .name = name});
     return baked_files(name, options);
   }
 

@@ -47,9 +47,9 @@ TEST_CASE("A 16-bit PNG keeps every level", "[files]") {
   CHECK(samples_of<std::uint16_t>(image) == levels.values);
 }
 
-TEST_CASE("A float image keeps every bit, NaN included, in EXR and TIFF", "[files]") {
+TEST_CASE("A float image keeps every bit, NaN included", "[files]") {
   const ScratchFolder scratch;
-  const std::string name = GENERATE("map.exr", "map.tif");
+  const std::string name = "map.exr";
   Map map(700, 300);  // taller than the rows written at a time
   for (std::size_t i = 0; i < map.size(); ++i) map.values[i] = std::sin(static_cast<float>(i));
   map(2, 3) = std::numeric_limits<float>::quiet_NaN();

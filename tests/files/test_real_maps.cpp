@@ -74,14 +74,12 @@ TEST_CASE("Half of hugo_site is missing once its undeclared no-data value is giv
   CHECK(relief(loaded.map) == 51);
 }
 
-TEST_CASE("Boulder's cells in degrees are refused with their size in metres", "[files][shared]") {
+TEST_CASE("Boulder's cells in degrees are measured in metres", "[files][shared]") {
   const auto path = find_shared_data("terrain/SRTMGL3_boulder.asc");
   if (!path) return;
-  CHECK_THROWS_WITH(load_heightmap(*path, {}, kGigabyte), Contains("SRTMGL3_boulder.asc"));
-  CHECK(remedy_of([&] { load_heightmap(*path, {}, kGigabyte); }) == "texel 71.01x92.53");
-  LoadOptions options;
-  options.texel = Spacing{71.01, 92.53};
-  const LoadedHeightmap loaded = load_heightmap(*path, options, kGigabyte);
+  const LoadedHeightmap loaded = load_heightmap(*path, {}, kGigabyte);
+  CHECK(loaded.map.spacing.x == Approx(71.01).margin(0.005));
+  CHECK(loaded.map.spacing.y == Approx(92.53).margin(0.005));
   CHECK(loaded.map.height.width == 240);
   CHECK(loaded.map.height.height == 144);
   CHECK(relief(loaded.map) == 1343);

@@ -161,9 +161,10 @@ TEST_CASE("raw samples want their size, and tell their type by it", "[files]") {
 TEST_CASE("an SRTM tile is metres, with voids, at the place that its name says", "[files]") {
   const ScratchFolder scratch;
   write_text(scratch / "N45E006.hgt", srtm_tile());
-  CHECK_THAT(fault_of(scratch / "N45E006.hgt"), Contains("in degrees") && Contains("65.13x92.62"));
-  const LoadedHeightmap loaded =
-      load_heightmap(scratch / "N45E006.hgt", {.degrees_in_metres = true}, kEnough);
+  const LoadedHeightmap loaded = load_heightmap(scratch / "N45E006.hgt", {}, kEnough);
+  CHECK_THAT(loaded.warnings.at(0).message, Contains("degrees are 65.13 x 92.62 m"));
+  REQUIRE(loaded.place);
+  CHECK(loaded.place->system == "EPSG:4326");
   CHECK(loaded.map.boundary == Boundary::open);
   CHECK(loaded.map.spacing.x == Approx(metres_east(45.5) / 1200).epsilon(1e-6));
   CHECK(loaded.map.spacing.y == Approx(metres_north(45.5) / 1200).epsilon(1e-6));

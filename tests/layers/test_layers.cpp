@@ -52,15 +52,24 @@ const std::map<std::string, Names> kMayInclude = {
 const std::vector<std::string> kGroups = {"core/", "studies/"};
 
 const std::map<std::string, std::string> kLayerOfPublicHeader = {
-    {"error.h", "base"},          {"watch.h", "base"},
-    {"image.h", "base"},          {"version.h", "base"},
-    {"heightmap.h", "heightmap"}, {"synth.h", "heightmap"},
-    {"surface.h", "surface"},     {"visibility.h", "visibility"},
-    {"transport.h", "transport"}, {"curves.h", "curves"},
+    {"error.h", "base"},
+    {"watch.h", "base"},
+    {"image.h", "base"},
+    {"version.h", "base"},
+    {"heightmap.h", "heightmap"},
+    {"synth.h", "heightmap"},
+    {"georeference.h", "heightmap"},
+    {"surface.h", "surface"},
+    {"visibility.h", "visibility"},
+    {"transport.h", "transport"},
+    {"curves.h", "curves"},
     {"forms.h", "base"},  // formulas alone, for everybody
-    {"closed_forms.h", "forms"},  {"evidence.h", "solve"},
-    {"solve.h", "solve"},         {"screenspace.h", "screenspace"},
-    {"sky_light.h", "skylight"},  {"files.h", "files"},
+    {"closed_forms.h", "forms"},
+    {"evidence.h", "solve"},
+    {"solve.h", "solve"},
+    {"screenspace.h", "screenspace"},
+    {"sky_light.h", "skylight"},
+    {"files.h", "files"},
 };
 
 const Names kCommands = {"fit", "comparison", "bake", "plot", "cli"};

@@ -13,6 +13,7 @@
 #include "bake/texel_encoding.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
+#include "files/esri_grid_write.h"
 #include "files/image_file.h"
 #include "files/output_file.h"
 #include "files/staged_output.h"
@@ -24,7 +25,17 @@ namespace heightlight {
 namespace {
 
 const char* extension_of(TextureFormat format) {
-  return format == TextureFormat::png ? ".png" : format == TextureFormat::exr ? ".exr" : ".tif";
+  switch (format) {
+    case TextureFormat::png:
+      return ".png";
+    case TextureFormat::exr:
+      return ".exr";
+    case TextureFormat::tif:
+      return ".tif";
+    case TextureFormat::asc:
+      break;
+  }
+  return ".asc";
 }
 
 SampleType sample_type(TextureDepth depth) {
@@ -51,16 +62,19 @@ std::vector<std::string> channel_names(const BakedTexture& texture) {
   return names;
 }
 
-void write_baked(const std::filesystem::path& path, const BakedTexture& texture, const Surface& surface,
-                 const TexelEncoding& encoding) {
-  const int width = surface.width();
-  const auto count = static_cast<int>(texture.channels.size());
-  const TextureLayout layout{width,
-                             surface.height(),
-                             channel_names(texture),
-                             sample_type(encoding.depth),
-                             {{"ImageDescription", texture.definition}}};
-  write_texture(path, layout, [&](int first, int rows, float* samples) {
+/// What a GeoTIFF says of its bands.
+std::vector<BandText> band_texts(const BakedTexture& texture) {
+  std::vector<BandText> bands;
+  for (const BakedChannel& channel : texture.channels)
+    bands.push_back({.description = channel.quantity, .unit = channel.unit == "1" ? "" : channel.unit});
+  return bands;
+}
+
+/// A map's samples as its file holds them.
+FillRows encoded_rows(const BakedTexture& texture, const Surface& surface, const TexelEncoding& encoding) {
+  return [&](int first, int rows, float* samples) {
+    const int width = surface.width();
+    const auto count = static_cast<int>(texture.channels.size());
     parallel_for(rows, [&](std::int64_t line) {
       const int row = first + static_cast<int>(line);
       float* out = samples + line * width * count;
@@ -73,7 +87,21 @@ void write_baked(const std::filesystem::path& path, const BakedTexture& texture,
         }
       }
     });
-  });
+  };
+}
+
+void write_baked(const std::filesystem::path& path, const BakedTexture& texture, const Surface& surface,
+                 const TexelEncoding& encoding, const std::optional<Georeference>& place) {
+  const TextureLayout layout{.width = surface.width(),
+                             .height = surface.height(),
+                             .channels = channel_names(texture),
+                             .type = sample_type(encoding.depth),
+                             .attributes = {{"ImageDescription", texture.definition}},
+                             .place = place ? &*place : nullptr,
+                             .bands = band_texts(texture)};
+  const FillRows rows = encoded_rows(texture, surface, encoding);
+  if (path.extension() == ".asc") return write_esri_grid(path, layout, surface.map.spacing, rows);
+  write_texture(path, layout, rows);
 }
 
 /// What the user should know before believing the maps, of the file and of what was made of it.
@@ -104,16 +132,16 @@ class StagedBake {
         former_(find_former_maps(target.folder / files_.back(), options.surface, files_)),
         folder_(target.folder, target.inputs, files_, former_record()) {}
 
-  BakeOutcome write(const Material& material, const SourceFacts& facts, std::vector<Warning> warnings) {
+  BakeOutcome write(const Material& material, const HeightSource& source, std::vector<Warning> warnings) {
     Stopwatch watch;
     const Surface& surface = *material.surface;
     SidecarFacts told{
         .source = target_.source,
-        .facts = facts,
+        .facts = source.facts,
         .former = std::move(former_),
         .warnings = find_warnings(std::move(warnings), surface.map, material.results.evidence, options_)};
     const std::vector<BakedTexture> textures = baked_textures(material, options_);
-    write_textures(textures, surface);
+    write_textures(textures, surface, source.place);
     told.files = folder_.written();  // the shaders that follow are those of every map in the folder
     if (is_wanted(options_, MaterialMap::ao_n)) write_shaders(folder_);
     told.output_seconds = watch.lap();
@@ -128,14 +156,18 @@ class StagedBake {
   }
 
   /// Compression takes longest, and the libraries compress a file on one thread.
-  void write_textures(const std::vector<BakedTexture>& textures, const Surface& surface) {
+  void write_textures(const std::vector<BakedTexture>& textures, const Surface& surface,
+                      const std::optional<Georeference>& place) {
     const TexelEncoding encoding = make_encoding(options_);
     std::vector<std::filesystem::path> paths;
     for (std::size_t i = 0; i < textures.size(); ++i) paths.push_back(folder_.file(files_[i]));
     parallel_for(static_cast<std::int64_t>(textures.size()), [&](std::int64_t i) {
       const auto at = static_cast<std::size_t>(i);
-      write_baked(paths[at], textures[at], surface, encoding);
+      write_baked(paths[at], textures[at], surface, encoding, place);
     });
+    for (const std::string& file : files_) {
+      if (file.ends_with(".prj")) write_bytes(folder_.file(file), options_.projection + "\n");
+    }
   }
 
   const BakeOptions& options_;
@@ -166,7 +198,11 @@ const char* to_string(MaterialMap map) { return material_maps()[static_cast<std:
 std::vector<std::string> baked_files(const std::string& name, const BakeOptions& options) {
   std::vector<std::string> files = texture_suffixes(options);
   const std::string stem = name + "_";
+  const std::size_t textures = files.size();
   for (std::string& file : files) file.insert(0, stem).append(extension_of(options.format));
+  for (std::size_t i = 0; options.format == TextureFormat::asc && !options.projection.empty() && i < textures;
+       ++i)
+    files.push_back(std::filesystem::path(files[i]).replace_extension(".prj").string());
   if (is_wanted(options, MaterialMap::ao_n)) {
     files.push_back("ao-n.glsl");
     files.push_back("ao-n.hlsl");
@@ -186,6 +222,15 @@ void check_bake_options(const BakeOptions& options) {
   }
   if (options.format == TextureFormat::exr && integer) {
     throw UsageError("depth", "", "EXR holds half or float; the formats png and tif hold 8 and 16 bits");
+  }
+  if (options.format == TextureFormat::asc && options.depth != TextureDepth::real) {
+    throw UsageError("depth", "",
+                     "of an Esri grid is that of its numbers; the formats png and tif hold levels");
+  }
+  const bool has_cone =
+      std::find(options.maps.begin(), options.maps.end(), MaterialMap::bent_cone) != options.maps.end();
+  if (options.format == TextureFormat::asc && (has_cone || !options.packed.empty())) {
+    throw UsageError("format", "asc", "holds one channel: bent cones and packed channels want another");
   }
   if (options.dither && options.depth != TextureDepth::uint8) {
     throw UsageError("dither", "", "only a depth of 8 bits needs it");
@@ -210,13 +255,14 @@ BakeOutcome bake_material(LoadedHeightmap loaded, const BakeOptions& options, co
   check_bake_options(options);
   StagedBake staged(options, target);
   const Surface surface = build_surface(std::move(loaded.map));
-  return staged.write(find_material(surface, options), loaded.facts, std::move(loaded.warnings));
+  return staged.write(find_material(surface, options), {.facts = loaded.facts, .place = loaded.place},
+                      std::move(loaded.warnings));
 }
 
-BakeOutcome write_material(const Material& material, const SourceFacts& facts, const BakeOptions& options,
+BakeOutcome write_material(const Material& material, const HeightSource& source, const BakeOptions& options,
                            const BakeTarget& target) {
   check_bake_options(options);
-  return StagedBake(options, target).write(material, facts, {});
+  return StagedBake(options, target).write(material, source, {});
 }
 
 }  // namespace heightlight

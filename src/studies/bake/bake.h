@@ -40,7 +40,12 @@ const std::vector<MaterialMapName>& material_maps();
 const char* to_string(MaterialMap map);
 
 /// Kinds of file, and how their samples are stored.
-enum class TextureFormat { png, exr, tif };
+enum class TextureFormat {
+  png,
+  exr,
+  tif,  ///< of terrain: a GeoTIFF
+  asc   ///< Esri ASCII grids, one channel each
+};
 enum class TextureDepth { uint8, uint16, half, real };
 
 /// What goes into one channel of a packed texture: a component of a map, or a constant.
@@ -68,6 +73,7 @@ struct BakeOptions {
   std::uint64_t seed = 1;        ///< of pilot, check and dither
   std::uint64_t memory = ~0ULL;  ///< bytes that all of it may take
   Watch watch = {};              ///< of the solution
+  std::string projection = {};   ///< text of the .prj that goes beside each Esri grid; empty: none does
   std::string request = {};      ///< what was asked for, as the asker knows it again; stands in the sidecar
   std::string surface = {};      ///< likewise the heights alone: earlier maps of the same ones stay
 };
@@ -81,6 +87,12 @@ struct BakeTarget {
   InputGuard inputs;             ///< that it was baked from, or others will be
   std::filesystem::path folder;
   std::string name;  ///< what the files' names begin with
+};
+
+/// The heights that maps are made of, as their file tells of them.
+struct HeightSource {
+  SourceFacts facts = {};
+  std::optional<Georeference> place = {};  ///< which GeoTIFFs and grids keep
 };
 
 /// What a user should be told of a bake.
@@ -97,8 +109,8 @@ BakeOutcome bake_material(LoadedHeightmap loaded, const BakeOptions& options, co
 
 struct Material;
 
-/// The same of a material that was found (material.h), by the same options. `facts` are of the heights.
-BakeOutcome write_material(const Material& material, const SourceFacts& facts, const BakeOptions& options,
+/// The same of a material that was found (material.h), by the same options.
+BakeOutcome write_material(const Material& material, const HeightSource& source, const BakeOptions& options,
                            const BakeTarget& target);
 
 /// Throws UsageError, naming the option, for what no map can be baked with.

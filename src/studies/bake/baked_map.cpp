@@ -158,9 +158,10 @@ BakedChannel constant(double value) {
 /// What files of a map hold which of its components: [first, last).
 std::vector<std::pair<int, int>> split(int components, TextureFormat format) {
   constexpr int kMostInPng = 4;
-  const int part = components % 3 == 0 ? 3 : kMostInPng;
+  const int most = format == TextureFormat::png ? kMostInPng : format == TextureFormat::asc ? 1 : components;
+  if (components <= most) return {{0, components}};
+  const int part = most > 1 && components % 3 == 0 ? 3 : most;
   std::vector<std::pair<int, int>> parts;
-  if (format != TextureFormat::png || components <= kMostInPng) return {{0, components}};
   for (int first = 0; first < components; first += part) {
     parts.push_back({first, std::min(first + part, components)});
   }

@@ -1,0 +1,31 @@
+#include "files/terrain_file.h"
+
+#include "files/file_format.h"
+#include "files/input_file.h"
+#include "files/sample_grid.h"
+#include "files/tiff_facts.h"
+#include "heightlight/error.h"
+
+namespace heightlight {
+
+bool is_terrain_file(const std::filesystem::path& path) {
+  try {
+    const InputFile file(path);
+    switch (recognise_format(file)) {
+      case FileFormat::esri_grid:
+        return true;
+      case FileFormat::srtm:
+        return srtm_place(file).has_value();
+      case FileFormat::tiff:
+        return read_tiff_facts(file).place.place.has_value();
+      default:
+        return false;
+    }
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+}  // namespace heightlight
