@@ -31,6 +31,13 @@ struct SkyCheck {
   std::optional<double> harmonics = {};        ///< of a coefficient
 };
 
+/// Likewise of a map of a definition.
+struct DefinitionCheck {
+  SkyDefinition definition = SkyDefinition::svf_tilted;
+  int azimuths = 0;                 ///< along which horizons were found
+  std::optional<double> rmse = {};  ///< in the definition's unit; absent where nothing was checked
+};
+
 /// What must hold of any surface, as measured on this one.
 struct EnergyCheck {
   double row_sum_max_error = 0;   ///< |sky + Σ F − 1|, of walks before they scale what they gather
@@ -75,6 +82,7 @@ struct Evidence {
   // What it errs by.
   std::optional<double> sky_rmse;     ///< of A: the best figure there is; absent where no receiver is
   std::optional<SkyCheck> sky_check;  ///< of the sky's maps
+  std::vector<DefinitionCheck> definition_checks;  ///< per definition asked for
   std::vector<HorizonCheck>
       total_checks;                 ///< per albedo, of A and of the total in the channel that errs most
   std::vector<double> bounce_rmse;  ///< of E₀/π … E_K/π, where single bounces were asked for

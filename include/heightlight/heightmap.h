@@ -25,6 +25,7 @@ struct Heightmap {
   double base = 0;  ///< world height of 0 in `height`; the lowest sample, so that height >= 0
   Spacing spacing;
   Boundary boundary = Boundary::tile;
+  double curvature = 0;  ///< κ, per world unit: heights were lowered by κ r² (curve_heights)
 };
 
 /// Peak-to-valley height of the samples present, in world units; 0 where none is.
@@ -37,6 +38,25 @@ std::size_t count_missing(const Heightmap& map);
 /// spacing that goes with it: a coarser look at the same surface. Missing where all of a square is. Throws
 /// UsageError for a factor that does not divide both sides.
 Heightmap shrink(const Heightmap& map, int factor);
+
+/// k of terrestrial refraction where nobody measured it: light bends downwards, along a radius of R/k.
+constexpr double kUsualRefraction = 0.13;
+
+/// The map on the Earth's curved surface: with heights lowered by κ r², κ = (1 − k)/2R, where r is the
+/// distance from the map's middle, R = 6371008.8 m (the mean radius), and k the refraction. One world unit is
+/// a metre. From any two places of the map one is seen from the other as on a sphere of radius R/(1 − k), to
+/// second order in r/R. Throws UsageError for a map that tiles or is curved already, and for k outside
+/// [0, 1).
+Heightmap curve_heights(Heightmap map, double refraction = kUsualRefraction);
+
+/// Slopes along x and y.
+struct Gradient {
+  double x = 0;
+  double y = 0;
+};
+
+/// What is level at a sample, in the map's axes: 0, unless the map is curved.
+Gradient level_gradient(const Heightmap& map, int row, int column);
 
 /// How steps across the map's borders compare with steps inside: a tile's are alike.
 struct EdgeSteps {

@@ -43,6 +43,7 @@ class BounceSink {
 struct Wanted {
   bool sky = false;        ///< α and A
   SkyWanted moments = {};  ///< of the sky: bent normals, cones and harmonics follow from them
+  std::vector<SkyDefinition> definitions = {};  ///< what terrain science calls by these names
   std::vector<double> horizon_rad =
       {};                           ///< azimuths toward which horizons are found, counterclockwise from x
   std::optional<Reach> reach = {};  ///< as far as occluders count for all of the above; never for bounces
@@ -50,6 +51,9 @@ struct Wanted {
   bool seen = false;                ///< n of every texel (forms.h), solved for at kSeenAlbedo
   int bounces = 0;          ///< K > 0: E₀ … E_K apart, for `sink`, or in Results where there is none
   TexelVector direct = {};  ///< E₀/π of light of one's own, for `totals`; the sky's where empty
+  /// Of α, A, the moments, definitions made of A, and the sky's light for `totals`. What surfaces see of each
+  /// other stays. `seen` and single bounces are those of a sky all around: they refuse `ground`.
+  BelowHorizontal below = BelowHorizontal::sky;
 };
 
 /// How it is to be found.
@@ -94,7 +98,9 @@ struct Results {
   Map ambient_occlusion;  ///< α as far as the reach, [0, 1]; NaN where the sample is missing, here and below
   Map sky_view_factor;    ///< A, likewise
   SkyMoments moments;
-  std::vector<Map> horizons;  ///< elevations, rad, at least those of the tangent plane, per azimuth asked for
+  std::vector<Map> definitions;  ///< per definition asked for
+  std::vector<Map> horizons;     ///< elevations above what is level at the place, rad, at least those of the
+                                 ///< tangent plane, per azimuth asked for
   /// E/π of all bounces: [albedo][channel], in double precision, 0 where the sample is missing (to_map makes
   /// maps).
   std::vector<std::vector<TexelVector>> totals;

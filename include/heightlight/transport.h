@@ -226,6 +226,8 @@ struct CheckOptions {
   std::uint64_t seed = 1;                  ///< of the receivers
   double error = 0;                        ///< RMSE wanted; 0: none, every figure is to be exact
   const Map* ambient_occlusion = nullptr;  ///< α to be compared, too
+  bool above_horizontal = false;           ///< light of one's own is the sky's, but for what is below the
+                                           ///< horizontal: it is checked, too
   Watch watch = {};
 };
 

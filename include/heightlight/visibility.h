@@ -41,6 +41,46 @@ struct SkyPlan {
   double sampled = 0;     ///< the part of it that azimuths share, from sampling
 };
 
+/// What lies below the horizontal of a place in directions that miss the surface, as those do that leave an
+/// open map.
+enum class BelowHorizontal {
+  sky,    ///< as bright as above: A of a plane is 1 however it is tilted
+  ground  ///< nothing that shines, as terrain tools have it: A of a plane tilted by S is (1 + cos S)/2
+};
+
+/// The one of that name: sky or ground. Throws UsageError where there is none.
+BelowHorizontal below_horizontal_named(const std::string& name);
+
+/// What terrain science calls a sky view factor, or openness, by name. Means are over azimuths, equally
+/// spaced; h is the elevation of the horizon above the place's own horizontal, as it is: the tangent plane
+/// does not limit it, and on a ridge it is below 0. Where the formula says h ≥ 0 it is taken as 0 there.
+enum class SkyDefinition {
+  svf_tilted,         ///< A
+  svf_horizontal,     ///< mean cos² h, h ≥ 0: what a level receiver gets
+  svf_solid_angle,    ///< 1 − mean sin h, h ≥ 0 (Zakšek, Oštir and Kokalj 2011)
+  openness_positive,  ///< mean of π/2 − h, rad (Yokoyama, Shirasawa and Pike 2002). An azimuth toward which
+                      ///< there is no surface at all takes the tangent plane
+  openness_negative,    ///< the same of the surface turned upside down
+  mean_cos_h,           ///< mean cos h, h ≥ 0
+  terrain_view_factor,  ///< 1 − A
+};
+
+/// Of a definition: its name, as svf-tilted; its formula in a line of ASCII; and the unit, 1 or rad.
+struct SkyDefinitionFacts {
+  SkyDefinition definition;
+  const char* name;
+  const char* formula;
+  const char* unit;
+};
+
+/// In the order of SkyDefinition.
+const std::vector<SkyDefinitionFacts>& sky_definitions();
+
+const SkyDefinitionFacts& facts_of(SkyDefinition definition);
+
+/// The one of that name. Throws UsageError where there is none.
+SkyDefinition sky_definition_named(const std::string& name);
+
 /// What horizon walks are to find of the sky beside its shares α and A.
 struct SkyWanted {
   bool first = false;   ///< SkyMoments::first, of which bent normals and cones are made

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <string>
 
 #include "heightlight/error.h"
@@ -43,11 +44,25 @@ void check_direct(const Surface& surface, const Wanted& wanted) {
   }
 }
 
+void check_definitions(const Wanted& wanted) {
+  const std::set<SkyDefinition> different(wanted.definitions.begin(), wanted.definitions.end());
+  if (different.size() != wanted.definitions.size())
+    throw UsageError("definitions", "", "names a definition twice");
+}
+
+void check_below(const Wanted& wanted) {
+  if (wanted.below == BelowHorizontal::sky || (!wanted.seen && wanted.bounces == 0)) return;
+  throw UsageError(
+      "below_horizontal", "ground",
+      "is for maps of the sky and for totals: single bounces and n are those of a sky all around");
+}
+
 void check_accuracy(const Accuracy& accuracy, const Wanted& wanted) {
   if (accuracy.visibility == Visibility::rays) {
     check_ray_options({.rays = accuracy.rays, .seed = accuracy.seed});
-    const bool more =
-        wanted.moments.first || wanted.moments.second || !wanted.horizon_rad.empty() || wanted.reach;
+    const bool horizons = !wanted.horizon_rad.empty() ||
+                          !std::all_of(wanted.definitions.begin(), wanted.definitions.end(), is_of_sky);
+    const bool more = wanted.moments.first || wanted.moments.second || horizons || wanted.reach;
     if (more) throw UsageError("visibility", "rays", "find shares of the sky and bounces, and nothing else");
     return;
   }
@@ -80,6 +95,8 @@ void check_request(const Surface& surface, const Request& request) {
   if (wanted.reach) check_reach(*wanted.reach);
   for (const Albedo& albedo : wanted.totals) check_albedo(surface, albedo);
   check_direct(surface, wanted);
+  check_definitions(wanted);
+  check_below(wanted);
   check_accuracy(request.accuracy, wanted);
   check_transport(surface, request);
 }
@@ -89,7 +106,16 @@ bool needs_operator(const Wanted& wanted) {
 }
 
 bool keeps_sky(const Wanted& wanted) {
-  return (wanted.sky || wanted.moments.first || wanted.moments.second) && !wanted.reach;
+  return wants_sky(wanted) && !wanted.reach && wanted.below == BelowHorizontal::sky;
+}
+
+bool lights_from_above(const Wanted& wanted) {
+  return wanted.below == BelowHorizontal::ground && !wanted.totals.empty() && wanted.direct.empty();
+}
+
+bool wants_sky(const Wanted& wanted) {
+  return wanted.sky || wanted.moments.first || wanted.moments.second ||
+         std::any_of(wanted.definitions.begin(), wanted.definitions.end(), is_of_sky);
 }
 
 }  // namespace heightlight

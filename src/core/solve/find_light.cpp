@@ -9,7 +9,11 @@ namespace heightlight {
 namespace {
 
 void describe_operator(const PlannedTransport& found, const Task& task, Evidence& evidence) {
-  if (task.request.accuracy.visibility == Visibility::horizon_walks) evidence.plan = found.plan;
+  if (task.request.accuracy.visibility == Visibility::horizon_walks) {
+    const std::optional<HorizonPlan> from_above = evidence.plan;  // of a sky that is not the operator's
+    evidence.plan = found.plan;
+    if (from_above) evidence.plan->sky = from_above->sky;
+  }
   evidence.has_links = true;
   evidence.links = found.transport->link_count();
   evidence.link_bytes = found.transport->bytes();

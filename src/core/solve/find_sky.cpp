@@ -16,14 +16,19 @@ constexpr double kMomentShare = 0.6;
 SkyPlan choose_plan(const Task& task, const Results& results) {
   const Request& request = task.request;
   if (request.accuracy.plan) return request.accuracy.plan->sky;
-  if (results.evidence.plan && !request.wanted.reach) return results.evidence.plan->sky;
-  HorizonPilot pilot(task.surface, request.accuracy.seed, request.watch);
+  const bool alike = !request.wanted.reach && request.wanted.below == BelowHorizontal::sky;
+  if (results.evidence.plan && alike) return results.evidence.plan->sky;
+  HorizonPilot pilot(task.surface, request.accuracy.seed, request.watch, request.wanted.below);
   SkyPlan plan = plan_sky(pilot, plan_goal(request, request.wanted.moments.first));
   if (request.wanted.reach) {
     plan.full_from = 0;
     plan.full_share = 1;
   }
   return plan;
+}
+
+SkyTask task_of(const Wanted& wanted) {
+  return {.wanted = wanted.moments, .reach = wanted.reach, .below = wanted.below};
 }
 
 void take(HorizonSky sky, Results& results) {
@@ -39,12 +44,8 @@ void walk_sky_of(const Task& task, Results& results) {
   if (!results.evidence.plan) results.evidence.plan.emplace();
   results.evidence.plan->sky = plan;
   const HeightMips mips = build_height_mips(task.surface);
-  const bool wants_sky = wanted.sky || wanted.moments.first || wanted.moments.second;
-  if (wants_sky && results.sky_view_factor.size() == 0) {
-    take(walk_horizon_sky(task.surface, mips, plan, {.wanted = wanted.moments, .reach = wanted.reach},
-                          request.watch),
-         results);
-  }
+  if (wants_sky(wanted) && results.sky_view_factor.size() == 0)
+    take(walk_horizon_sky(task.surface, mips, plan, task_of(wanted), request.watch), results);
   if (wanted.horizon_rad.empty()) return;
   results.horizons =
       walk_horizons(task.surface, mips, plan.walk, wanted.horizon_rad, wanted.reach, request.watch);
@@ -68,14 +69,14 @@ void find_sky(const Task& task, Results& results) {
       return;
     case Visibility::exact_slices:
       if (results.sky_view_factor.size() == 0) {
-        take(slice_sky(task.surface, results.evidence.azimuths,
-                       {.wanted = wanted.moments, .reach = wanted.reach}, task.request.watch),
+        take(slice_sky(task.surface, results.evidence.azimuths, task_of(wanted), task.request.watch),
              results);
       }
       results.horizons = slice_horizons(task.surface, wanted.horizon_rad, wanted.reach, task.request.watch);
       return;
     case Visibility::rays:
-      take(cast_sky(task.surface, {.rays = accuracy.rays, .seed = accuracy.seed}, task.request.watch),
+      take(cast_sky(task.surface, {.rays = accuracy.rays, .seed = accuracy.seed}, wanted.below,
+                    task.request.watch),
            results);
       return;
   }

@@ -9,8 +9,9 @@ namespace {
 
 /// One system per channel of the albedos asked for, in their order, and one at kSeenAlbedo where `seen` says
 /// so.
-std::vector<LightSystem> list_systems(const Wanted& wanted, bool seen) {
-  const TexelVector* direct = wanted.direct.empty() ? nullptr : &wanted.direct;
+std::vector<LightSystem> list_systems(const Task& task, bool seen) {
+  const Wanted& wanted = task.request.wanted;
+  const TexelVector* direct = task.direct;
   std::vector<LightSystem> systems;
   for (const Albedo& albedo : wanted.totals) {
     for (const double constant : albedo.constant) systems.push_back({.direct = direct, .albedo = constant});
@@ -36,6 +37,7 @@ std::vector<HorizonCheck> check_totals(const Task& task, const Transport& transp
                               {.seed = accuracy.seed,
                                .error = accuracy.error,
                                .ambient_occlusion = &transport.ambient_occlusion,
+                               .above_horizontal = lights_from_above(task.request.wanted),
                                .watch = task.request.watch});
 }
 
@@ -120,7 +122,7 @@ TexelVector find_totals(const Task& task, const Transport& transport, Results& r
   const Wanted& wanted = request.wanted;
   Evidence& evidence = results.evidence;
   const bool seen = wanted.seen || wanted.bounces > 0;
-  const std::vector<LightSystem> systems = list_systems(wanted, seen);
+  const std::vector<LightSystem> systems = list_systems(task, seen);
   Stopwatch watch;
   Totals solved = transport.solve(systems, request.watch);
   note_solver(solved.residual, solved.iterations, evidence);

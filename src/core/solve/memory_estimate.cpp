@@ -52,11 +52,16 @@ std::uint64_t estimate_memory(int width, int height, const Request& request) {
   const Wanted& wanted = request.wanted;
   const auto texels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
   std::uint64_t per_texel = kMap + sizeof(Vector3);
-  const bool wants_sky = wanted.sky || wanted.moments.first || wanted.moments.second;
-  if (!wants_sky && wanted.horizon_rad.empty() && !needs_operator(wanted)) return texels * per_texel;
+  const bool wants_any = wants_sky(wanted) || !wanted.horizon_rad.empty() || !wanted.definitions.empty();
+  if (!wants_any && !needs_operator(wanted)) return texels * per_texel;
   per_texel += horizon_sky_bytes(wanted.moments) + kMap * wanted.horizon_rad.size();
+  per_texel += kMap * wanted.definitions.size();
   std::uint64_t pyramids = height_mips_bytes(width, height);
   pyramids += maximum_pyramid_bytes(width, height);  // of exact walks: the pilot's, the checks'
+  if (std::find(wanted.definitions.begin(), wanted.definitions.end(), SkyDefinition::openness_negative) !=
+      wanted.definitions.end())
+    per_texel += kMap + sizeof(Vector3);  // the surface upside down; its pyramids come after the others
+  if (lights_from_above(wanted)) per_texel += kVector + horizon_sky_bytes({});
   if (request.accuracy.visibility == Visibility::horizon_walks)
     pyramids += horizon_pilot_bytes(width, height);
   if (needs_operator(wanted)) {

@@ -17,6 +17,11 @@ std::string missed_error(const Evidence& evidence) {
   if (evidence.sky_rmse && *evidence.sky_rmse > most)
     found = in_digits(*evidence.sky_rmse, 2) + " of the sky view factor";
   if (total > most) found += (found.empty() ? "" : ", ") + in_digits(total, 2) + " of the total";
+  for (const DefinitionCheck& check : evidence.definition_checks) {
+    if (check.rmse.value_or(0) > most && !is_of_sky(check.definition))
+      found +=
+          (found.empty() ? "" : ", ") + in_digits(*check.rmse, 2) + " of " + facts_of(check.definition).name;
+  }
   if (found.empty()) return {};
   return "the error wanted, " + in_digits(evidence.error_wanted, 2) +
          ", is missed: exact walks find an RMSE of " + found;

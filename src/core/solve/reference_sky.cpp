@@ -40,7 +40,7 @@ HorizonSky slice_sky(const Surface& surface, int azimuths, const SkyTask& task, 
   for_rows(surface, "sky", watch, [&](int row, const Progress& progress) {
     for (int column = 0; column < surface.width(); ++column) {
       progress.throw_if_stopped();
-      const ExactSky exact = find_exact_sky(walker, row, column, task.reach);
+      const ExactSky exact = find_exact_sky(walker, row, column, task.reach, task.below);
       sky.ambient_occlusion(row, column) = static_cast<float>(exact.ambient_occlusion);
       sky.sky_view_factor(row, column) = static_cast<float>(exact.sky_view_factor);
       if (task.wanted.first) sky.moments.first(row, column) = to_vector3(exact.first.cast<float>());
@@ -56,8 +56,7 @@ std::vector<Map> slice_horizons(const Surface& surface, const std::vector<double
                                 const std::optional<Reach>& reach, const Watch& watch) {
   std::vector<Map> horizons(azimuths_rad.size(), Map(surface.width(), surface.height(), kMissing));
   if (horizons.empty()) return horizons;
-  const double farthest = reach ? reach->distance : std::numeric_limits<double>::infinity();
-  const ExactWalker walker(surface, 1, farthest);
+  const ExactWalker walker(surface, 1, exact_reach(reach));
   for_rows(surface, "horizons", watch, [&](int row, const Progress& progress) {
     for (int column = 0; column < surface.width(); ++column) {
       progress.throw_if_stopped();
@@ -65,16 +64,36 @@ std::vector<Map> slice_horizons(const Surface& surface, const std::vector<double
       for (std::size_t k = 0; k < azimuths_rad.size(); ++k) {
         const double azimuth = azimuths_rad[k];
         const double along = double{normal.x} * std::cos(azimuth) + double{normal.y} * std::sin(azimuth);
-        const double tangent = std::atan2(-along, double{normal.z});
-        const double horizon = walker.horizon_rad(row, column, azimuth);
-        if (!std::isnan(horizon)) horizons[k](row, column) = static_cast<float>(std::max(horizon, tangent));
+        const double tangent = -along / double{normal.z};
+        const double horizon = std::tan(walker.horizon_rad(row, column, azimuth));
+        if (std::isnan(horizon)) continue;
+        const double level = walker.level_slope(row, column, {std::cos(azimuth), std::sin(azimuth)});
+        horizons[k](row, column) = static_cast<float>(std::atan(std::max(horizon, tangent) - level));
       }
     }
   });
   return horizons;
 }
 
-HorizonSky cast_sky(const Surface& surface, const RayOptions& rays, const Watch& watch) {
+std::vector<Map> slice_horizon_means(const Surface& surface, int azimuths,
+                                     const std::vector<HorizonMean>& means, const std::optional<Reach>& reach,
+                                     const Watch& watch) {
+  std::vector<Map> found(means.size(), Map(surface.width(), surface.height(), kMissing));
+  const ExactWalker walker(surface, azimuths, exact_reach(reach));
+  for_rows(surface, "horizons", watch, [&](int row, const Progress& progress) {
+    for (int column = 0; column < surface.width(); ++column) {
+      progress.throw_if_stopped();
+      if (std::isnan(surface.map.height(row, column))) continue;
+      const HorizonTerms<double> exact = exact_horizon_means(walker, row, column);
+      for (std::size_t k = 0; k < means.size(); ++k)
+        found[k](row, column) = static_cast<float>(exact[static_cast<std::size_t>(means[k])]);
+    }
+  });
+  return found;
+}
+
+HorizonSky cast_sky(const Surface& surface, const RayOptions& rays, BelowHorizontal below,
+                    const Watch& watch) {
   const RayCaster caster(surface, rays);
   HorizonSky sky = empty_sky(surface, {});
   for_rows(surface, "sky", watch, [&](int row, const Progress& progress) {
@@ -84,7 +103,9 @@ HorizonSky cast_sky(const Surface& surface, const RayOptions& rays, const Watch&
       progress.throw_if_stopped();
       caster.view(row, column, workspace, view);
       if (view.rays == 0) continue;
-      const SkyShare share = sky_share(view);
+      const SkyShare share = below == BelowHorizontal::ground
+                                 ? caster.share_above_horizontal(row, column, view, workspace)
+                                 : sky_share(view);
       sky.sky_view_factor(row, column) = static_cast<float>(share.sky_view_factor);
       sky.ambient_occlusion(row, column) = static_cast<float>(share.ambient_occlusion);
     }

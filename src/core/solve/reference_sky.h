@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "heightlight/watch.h"
+#include "visibility/horizon_means.h"
 #include "visibility/horizon_sky.h"
 
 namespace heightlight {
@@ -16,7 +17,13 @@ HorizonSky slice_sky(const Surface& surface, int azimuths, const SkyTask& task, 
 std::vector<Map> slice_horizons(const Surface& surface, const std::vector<double>& azimuths_rad,
                                 const std::optional<Reach>& reach, const Watch& watch);
 
+/// Means over `azimuths` exact horizons, as walk_horizon_means gives them.
+std::vector<Map> slice_horizon_means(const Surface& surface, int azimuths,
+                                     const std::vector<HorizonMean>& means, const std::optional<Reach>& reach,
+                                     const Watch& watch);
+
 /// The sky's shares of every receiver by rays, without links.
-HorizonSky cast_sky(const Surface& surface, const RayOptions& rays, const Watch& watch);
+HorizonSky cast_sky(const Surface& surface, const RayOptions& rays, BelowHorizontal below,
+                    const Watch& watch);
 
 }  // namespace heightlight

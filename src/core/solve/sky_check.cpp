@@ -53,8 +53,8 @@ Squares compare(const ExactSky& exact, const CheckedSky& sky, std::size_t texel)
 
 }  // namespace
 
-std::optional<SkyCheck> check_sky(const Surface& surface, const CheckedSky& sky,
-                                  const std::optional<Reach>& reach, std::uint64_t seed, const Watch& watch) {
+std::optional<SkyCheck> check_sky(const Surface& surface, const CheckedSky& sky, std::uint64_t seed,
+                                  const Watch& watch) {
   const ExactWalker walker(surface, kAzimuths);
   std::vector<Squares> all(kReceivers);
   Progress progress("check of the sky", kReceivers, watch);
@@ -64,8 +64,8 @@ std::optional<SkyCheck> check_sky(const Surface& surface, const CheckedSky& sky,
         const std::uint64_t pick = hash_combine(seed + 3, static_cast<std::uint64_t>(i));
         const std::size_t texel = pick % surface.map.height.size();
         const auto width = static_cast<std::size_t>(surface.width());
-        const ExactSky exact =
-            find_exact_sky(walker, static_cast<int>(texel / width), static_cast<int>(texel % width), reach);
+        const ExactSky exact = find_exact_sky(walker, static_cast<int>(texel / width),
+                                              static_cast<int>(texel % width), sky.reach, sky.below);
         if (!std::isnan(exact.sky_view_factor)) all[static_cast<std::size_t>(i)] = compare(exact, sky, texel);
       },
       &progress);

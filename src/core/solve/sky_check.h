@@ -8,16 +8,17 @@
 
 namespace heightlight {
 
-/// What is checked: maps of the sky, moments where there are any.
+/// What is checked: maps of the sky, moments where there are any; and of what sky they are.
 struct CheckedSky {
   const Map& ambient_occlusion;
   const Map& sky_view_factor;
   const SkyMoments& moments;
+  const std::optional<Reach>& reach;
+  BelowHorizontal below;
 };
 
 /// `seed` picks the receivers. Nothing where none is present.
-std::optional<SkyCheck> check_sky(const Surface& surface, const CheckedSky& sky,
-                                  const std::optional<Reach>& reach, std::uint64_t seed,
+std::optional<SkyCheck> check_sky(const Surface& surface, const CheckedSky& sky, std::uint64_t seed,
                                   const Watch& watch = {});
 
 }  // namespace heightlight

@@ -50,7 +50,8 @@ void check_results(const Task& task, Results& results) {
     return;
   }
   if (!request.checks.sky || results.sky_view_factor.size() == 0) return;
-  const bool more = results.moments.first.size() > 0 || request.wanted.reach;
+  const bool more = results.moments.first.size() > 0 || request.wanted.reach ||
+                    request.wanted.below == BelowHorizontal::ground;
   if (!evidence.total_checks.empty() && !more) {
     const HorizonCheck& check = evidence.total_checks[0];  // its receivers told of the sky already
     evidence.sky_check = {.receivers = check.receivers,
@@ -61,9 +62,39 @@ void check_results(const Task& task, Results& results) {
   }
   const CheckedSky sky{.ambient_occlusion = results.ambient_occlusion,
                        .sky_view_factor = results.sky_view_factor,
-                       .moments = results.moments};
-  evidence.sky_check = check_sky(task.surface, sky, request.wanted.reach, accuracy.seed, request.watch);
-  if (evidence.sky_check && !evidence.sky_rmse) evidence.sky_rmse = evidence.sky_check->sky_view_factor;
+                       .moments = results.moments,
+                       .reach = request.wanted.reach,
+                       .below = request.wanted.below};
+  evidence.sky_check = check_sky(task.surface, sky, accuracy.seed, request.watch);
+  const bool of_operator = evidence.sky_rmse && request.wanted.below == BelowHorizontal::sky;
+  if (evidence.sky_check && !of_operator) evidence.sky_rmse = evidence.sky_check->sky_view_factor;
+}
+
+/// E₀/π of a sky that has nothing below the horizontal, without a reach. It is kept where it is the sky that
+/// was asked for.
+TexelVector find_light_from_above(const Task& task, Results& results) {
+  const Request& request = task.request;
+  const bool keeps = wants_sky(request.wanted) && !request.wanted.reach;
+  const Request of_sky{.wanted = {.sky = true,
+                                  .moments = keeps ? request.wanted.moments : SkyWanted{},
+                                  .below = BelowHorizontal::ground},
+                       .accuracy = request.accuracy,
+                       .watch = request.watch};
+  Results found;
+  found.evidence = results.evidence;
+  find_sky({.surface = task.surface, .request = of_sky}, found);
+  results.evidence.plan = found.evidence.plan;
+  TexelVector direct(found.sky_view_factor.size());
+  for_texels(found.sky_view_factor, [&](std::size_t i) {
+    const float share = found.sky_view_factor.values[i];
+    direct[i] = std::isnan(share) ? 0 : double{share};
+  });
+  if (keeps) {
+    results.ambient_occlusion = std::move(found.ambient_occlusion);
+    results.sky_view_factor = std::move(found.sky_view_factor);
+    results.moments = std::move(found.moments);
+  }
+  return direct;
 }
 
 }  // namespace
@@ -74,18 +105,28 @@ Results solve(const Surface& surface, const Request& request) {
   Results results;
   Evidence& evidence = results.evidence;
   evidence = begin_evidence(request);
-  const Task task{
-      .surface = surface, .request = request, .free_memory = memory_left(surface, request, evidence)};
   const Wanted& wanted = request.wanted;
-  if (needs_operator(wanted)) find_light(task, results);
+  Task task{.surface = surface,
+            .request = request,
+            .direct = wanted.direct.empty() ? nullptr : &wanted.direct,
+            .free_memory = memory_left(surface, request, evidence)};
   Stopwatch watch;
-  const bool wants_sky = wanted.sky || wanted.moments.first || wanted.moments.second;
-  if (!wanted.horizon_rad.empty() || (wants_sky && results.sky_view_factor.size() == 0))
+  TexelVector from_above;
+  if (lights_from_above(wanted)) {
+    from_above = find_light_from_above(task, results);
+    task.direct = &from_above;
+  }
+  evidence.seconds.visibility += watch.lap();
+  if (needs_operator(wanted)) find_light(task, results);
+  watch.lap();
+  if (!wanted.horizon_rad.empty() || (wants_sky(wanted) && results.sky_view_factor.size() == 0))
     find_sky(task, results);
+  if (!wanted.definitions.empty()) find_definitions(task, results);
   evidence.seconds.visibility += watch.lap();
   check_results(task, results);
   evidence.seconds.check += watch.lap();
   if (evidence.plan) evidence.azimuths = evidence.plan->sky.walk.azimuths;
+  take_definitions_of_sky(task, results);
   evidence.estimated_bytes += evidence.link_bytes;
   return results;
 }

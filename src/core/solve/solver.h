@@ -13,7 +13,8 @@ namespace heightlight {
 struct Task {
   const Surface& surface;
   const Request& request;
-  std::uint64_t free_memory = 0;  ///< bytes that the limit leaves for links, or for a refinement
+  const TexelVector* direct = nullptr;  ///< E₀/π of totals; null: the sky's, as the operator has it
+  std::uint64_t free_memory = 0;        ///< bytes that the limit leaves for links, or for a refinement
 };
 
 /// Throws UsageError naming the quantity that is out of its range or contradicts another.
@@ -21,6 +22,10 @@ void check_request(const Surface& surface, const Request& request);
 
 /// Whether anything bounces, so that an operator is needed.
 bool needs_operator(const Wanted& wanted);
+
+/// Whether totals are of a sky that has nothing below the horizontal: a light of its own, beside the
+/// operator's.
+bool lights_from_above(const Wanted& wanted);
 
 /// Whether the operator's own sky is the one that was asked for.
 bool keeps_sky(const Wanted& wanted);
@@ -39,6 +44,18 @@ void find_light(const Task& task, Results& results);
 
 /// The sky alone, as far as the reach, and horizons, where no operator has found them.
 void find_sky(const Task& task, Results& results);
+
+/// Whether a definition is A, or made of it, and not of horizons.
+bool is_of_sky(SkyDefinition definition);
+
+/// Whether α, A or moments are to be found.
+bool wants_sky(const Wanted& wanted);
+
+/// The definitions that are means of horizons.
+void find_definitions(const Task& task, Results& results);
+
+/// Those made of A, once that is found and checked.
+void take_definitions_of_sky(const Task& task, Results& results);
 
 /// The operator; with horizon walks for that error, the moments wanted of its sky, and how it walks.
 PlannedTransport find_operator(const Task& task, double error, const SkyWanted& moments);

@@ -7,6 +7,7 @@
 #include "base/parallel.h"
 #include "heightlight/transport.h"
 #include "transport/error_propagation.h"
+#include "visibility/exact_sky.h"
 
 namespace heightlight {
 namespace {
@@ -35,14 +36,26 @@ struct ReceiverError {
 
 /// What is checked, and what all its receivers share.
 struct Check {
-  const Surface& surface;
+  const ExactWalker& walker;
   const TexelVector& sky;
   const std::vector<CheckedTotal>& totals;
   const Map* ambient;
+  bool above_horizontal;
   SkyClasses classes;
 };
 
+/// E₀/π of a total at a receiver.
+double direct_light(const Check& check, const CheckedTotal& checked, const SliceView& view,
+                    std::size_t texel) {
+  if (!checked.direct) return view.sky_view_factor;
+  if (!check.above_horizontal) return (*checked.direct)[texel];
+  const auto width = static_cast<std::size_t>(check.walker.surface().width());
+  return sky_above_horizontal(check.walker, static_cast<int>(texel / width), static_cast<int>(texel % width),
+                              view);
+}
+
 ReceiverError find_error(const Check& check, const SliceView& view, std::size_t texel) {
+  const Surface& surface = check.walker.surface();
   ReceiverError error{.sky = check.sky[texel] - view.sky_view_factor};
   if (check.ambient) error.ambient = double{check.ambient->values[texel]} - view.ambient_occlusion;
   const auto sky = [&check](std::size_t i) { return check.sky[i]; };
@@ -51,11 +64,11 @@ ReceiverError find_error(const Check& check, const SliceView& view, std::size_t 
       return checked.varying ? (*checked.varying)[i] : checked.albedo;
     };
     const auto radiosity = [&](std::size_t i) { return albedo(i) * checked.total[i]; };
-    const double direct = checked.direct ? (*checked.direct)[texel] : view.sky_view_factor;
-    const double gathered = gather_exactly(view, check.surface, radiosity);
+    const double gathered = gather_exactly(view, surface, radiosity);
+    const double direct = direct_light(check, checked, view, texel);
     error.totals.push_back({.residual = checked.total[texel] - direct - gathered,
                             .own_class = check.classes.of(check.sky[texel]),
-                            .seen = seen_by_class(view, check.surface, check.classes, albedo, sky)});
+                            .seen = seen_by_class(view, surface, check.classes, albedo, sky)});
   }
   return error;
 }
@@ -93,7 +106,7 @@ bool is_good_enough(const HorizonCheck& check, double error_wanted) {
 }
 
 /// Walks from `count` more receivers.
-void add_receivers(const Check& check, const ExactWalker& walker, std::uint64_t seed, const Watch& watch,
+void add_receivers(const Check& check, std::uint64_t seed, const Watch& watch,
                    std::vector<ReceiverError>& errors) {
   const auto texels = static_cast<std::int64_t>(check.sky.size());
   const std::int64_t count = std::min(kReceivers, texels);
@@ -103,9 +116,9 @@ void add_receivers(const Check& check, const ExactWalker& walker, std::uint64_t 
       count,
       [&](std::int64_t i) {
         const std::size_t texel = pick_texel(i, count, texels, seed);
-        const auto width = static_cast<std::size_t>(check.surface.width());
+        const auto width = static_cast<std::size_t>(check.walker.surface().width());
         SliceView view;
-        walker.view(static_cast<int>(texel / width), static_cast<int>(texel % width), view);
+        check.walker.view(static_cast<int>(texel / width), static_cast<int>(texel % width), view);
         if (std::isnan(view.sky_view_factor)) return;
         found[static_cast<std::size_t>(i)] = find_error(check, view, texel);
       },
@@ -121,17 +134,18 @@ std::vector<HorizonCheck> check_by_exact_walks(const Surface& surface, const Tex
                                                const std::vector<CheckedTotal>& totals,
                                                const CheckOptions& options) {
   const ExactWalker walker(surface, azimuths_for_check(options.error));
-  const Check check{.surface = surface,
+  const Check check{.walker = walker,
                     .sky = sky,
                     .totals = totals,
                     .ambient = options.ambient_occlusion,
+                    .above_horizontal = options.above_horizontal,
                     .classes = {surface, sky, options.seed + 5}};
   std::vector<ReceiverError> errors;
   std::vector<HorizonCheck> checks(totals.size());
   std::vector<bool> good(totals.size());  // a figure stays that is good enough, whatever the others want
   for (int round = 0; round < kMostRounds; ++round) {
     const std::uint64_t seed = hash_combine(options.seed + 2, static_cast<std::uint64_t>(round));
-    add_receivers(check, walker, seed, options.watch, errors);
+    add_receivers(check, seed, options.watch, errors);
     for (std::size_t t = 0; t < totals.size(); ++t) {
       if (good[t]) continue;
       checks[t] = sum_up(errors, t, walker.azimuths());

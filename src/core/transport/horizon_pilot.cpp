@@ -104,8 +104,10 @@ double root_mean_square(const std::vector<double>& errors) {
   return root_mean(squares, errors.size());
 }
 
-HorizonPilot::HorizonPilot(const Surface& surface, std::uint64_t seed, const Watch& watch)
+HorizonPilot::HorizonPilot(const Surface& surface, std::uint64_t seed, const Watch& watch,
+                           BelowHorizontal below)
     : surface_(surface),
+      below_(below),
       trial_watch_{.tell = {}, .stopped = watch.stopped},
       mips_(build_height_mips(surface)) {
   const std::vector<TileFrame> strips = cut_strips(surface);
@@ -162,7 +164,8 @@ std::size_t HorizonPilot::texel_of(const ExactReceiver& receiver) const {
   return surface_.map.height.index(frame.first_row + receiver.row, frame.first_column + receiver.column);
 }
 
-std::vector<float> HorizonPilot::walk_sky_of(const WalkOptions& options, EvenWalk* even) {
+std::vector<float> HorizonPilot::walk_sky_of(const WalkOptions& options, BelowHorizontal below,
+                                             EvenWalk* even) {
   std::vector<AzimuthTable> azimuths;
   for (int k = 0; k < options.azimuths; ++k) {
     azimuths.push_back(make_azimuth_table(surface_, options, azimuth_rad(options, k)));
@@ -181,6 +184,7 @@ std::vector<float> HorizonPilot::walk_sky_of(const WalkOptions& options, EvenWal
         const auto strip = static_cast<std::size_t>(i);
         const auto tile = std::make_unique<WalkTile>();
         const auto sums = std::make_unique<SkySums>();
+        sums->below = below;
         sums->steep = steep_slope(static_cast<int>(azimuths.size()) / (even ? 2 : 1));
         const auto far = std::make_unique<FarView>();
         tile->load(surface_, mips_, options, rings, frames_[strip]);
@@ -214,7 +218,8 @@ std::vector<float> HorizonPilot::walk_sky_of(const WalkOptions& options, EvenWal
 
 SamplingError HorizonPilot::sampling_error(int fineness, float peak_share) {
   EvenWalk even;
-  const std::vector<float> walked = walk_sky_of({kExactAzimuths, fineness, peak_share}, &even);
+  const std::vector<float> walked =
+      walk_sky_of({kExactAzimuths, fineness, peak_share}, BelowHorizontal::sky, &even);
   double squares = 0;
   double own = 0;
   for (const ExactReceiver& receiver : exact_) {
@@ -233,14 +238,14 @@ const std::vector<float>& HorizonPilot::many_like(const WalkOptions& options) {
       many_options_.peak_share != options.peak_share) {
     many_options_ = options;
     many_options_.azimuths = kManyAzimuths;
-    many_ = walk_sky_of(many_options_);
+    many_ = walk_sky_of(many_options_, below_);
   }
   return many_;
 }
 
 double HorizonPilot::azimuth_error(const WalkOptions& options) {
   const std::vector<float>& many = many_like(options);
-  const std::vector<float> few = walk_sky_of(options);
+  const std::vector<float> few = walk_sky_of(options, below_);
   double squares = 0;
   std::size_t count = 0;
   for (std::size_t at = 0; at < few.size(); ++at) {
@@ -260,7 +265,7 @@ HorizonPilot::Sparse HorizonPilot::find_sparse(const WalkOptions& options, doubl
   constexpr std::size_t kBlocks = SkyBlocks().size();
   const std::vector<float>& many = many_like(options);
   EvenWalk even;
-  const std::vector<float> all = walk_sky_of(options, &even);
+  const std::vector<float> all = walk_sky_of(options, below_, &even);
   std::vector<Block> blocks(even.shares.size());
   double squares = 0;
   std::size_t count = 0;

@@ -33,8 +33,11 @@ std::uint64_t horizon_pilot_bytes(int width, int height);
 /// them some that are walked exactly too.
 class HorizonPilot {
  public:
-  /// `surface` must outlive it. The watch hears of the exact walks, and may end trials too.
-  HorizonPilot(const Surface& surface, std::uint64_t seed, const Watch& watch);
+  /// `surface` must outlive it. The watch hears of the exact walks, and may end trials too. `below`: what few
+  /// azimuths cost is tried with that; what sampling costs, of which the horizontal hides but a part, with
+  /// the sky.
+  HorizonPilot(const Surface& surface, std::uint64_t seed, const Watch& watch,
+               BelowHorizontal below = BelowHorizontal::sky);
 
   bool empty() const { return exact_.empty(); }
 
@@ -98,12 +101,13 @@ class HorizonPilot {
   static std::size_t in_strips(const ExactReceiver& receiver);
 
   /// A of all receivers of the pilot, strip by strip; −1 where there is none.
-  std::vector<float> walk_sky_of(const WalkOptions& options, EvenWalk* even = nullptr);
+  std::vector<float> walk_sky_of(const WalkOptions& options, BelowHorizontal below, EvenWalk* even = nullptr);
 
   /// A by kManyAzimuths walked as the options have it, but for their number.
   const std::vector<float>& many_like(const WalkOptions& options);
 
   const Surface& surface_;
+  BelowHorizontal below_;
   Watch trial_watch_;  ///< is told nothing, and asked whether to go on
   HeightMips mips_;
   std::vector<TileFrame> frames_;  ///< the strips

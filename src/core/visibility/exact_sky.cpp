@@ -85,7 +85,24 @@ double open_share(const Reach& reach, double distance) {
   return 0;
 }
 
-ExactSky find_exact_sky(const ExactWalker& walker, int row, int column, const std::optional<Reach>& reach) {
+double sky_above_horizontal(const ExactWalker& walker, int row, int column, const SliceView& view) {
+  const Eigen::Vector3d normal = as_eigen(walker.surface().normal(row, column)).cast<double>().normalized();
+  double sky = 0;
+  double whole = 0;
+  for (int k = 0; k < walker.azimuths(); ++k) {
+    const Eigen::Vector2d azimuth(std::cos(walker.azimuth_rad(k)), std::sin(walker.azimuth_rad(k)));
+    const SliceNormal in_slice{normal.head<2>().dot(azimuth), normal.z()};
+    const double tangent = tangent_slope(in_slice);
+    const double lowest = std::max(tangent, walker.level_slope(row, column, azimuth));
+    const double horizon = std::tan(view.horizon_rad[static_cast<std::size_t>(k)]);
+    whole += cosine_mass(in_slice, elevation_of_slope(tangent), {});
+    sky += cosine_mass(in_slice, elevation_of_slope(std::max(lowest, horizon)), {});
+  }
+  return sky / whole;
+}
+
+ExactSky find_exact_sky(const ExactWalker& walker, int row, int column, const std::optional<Reach>& reach,
+                        BelowHorizontal below) {
   const Surface& surface = walker.surface();
   ExactSky sky;
   if (std::isnan(surface.map.height(row, column))) {
@@ -104,16 +121,19 @@ ExactSky find_exact_sky(const ExactWalker& walker, int row, int column, const st
     const Eigen::Vector2d azimuth(std::cos(walker.azimuth_rad(k)), std::sin(walker.azimuth_rad(k)));
     const SliceNormal in_slice{normal.head<2>().dot(azimuth), normal.z()};
     const double tangent = tangent_slope(in_slice);
+    const double lowest = below == BelowHorizontal::ground
+                              ? std::max(tangent, walker.level_slope(row, column, azimuth))
+                              : tangent;
     stretches.clear();
-    const double horizon = walker.walk(row, column, azimuth, tangent, stretches);
-    const Elevation lowest = elevation_of_slope(tangent);
-    const Elevation above = elevation_of_slope(std::max(tangent, horizon));
-    mass += cosine_mass(in_slice, lowest, {});
-    angle += solid_angle_above(lowest);
+    const double horizon = walker.walk(row, column, azimuth, lowest, stretches);
+    const Elevation plane = elevation_of_slope(tangent);
+    const Elevation above = elevation_of_slope(std::max(lowest, horizon));
+    mass += cosine_mass(in_slice, plane, {});
+    angle += solid_angle_above(plane);
     add_slice(azimuth, cosine_mass(in_slice, above, {}), solid_angle_above(above),
               bent_mass_above(in_slice, above), second_mass_above(in_slice, above), sky);
     if (!reach) continue;
-    double from = tangent;
+    double from = lowest;
     for (const VisibleStretch& stretch : stretches) {
       if (!is_own_facet(stretch)) add_stretch(in_slice, azimuth, from, stretch, *reach, sky);
       from = stretch.slope;

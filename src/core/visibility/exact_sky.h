@@ -21,7 +21,11 @@ struct ExactSky {
 /// With a reach, what is seen of the surface counts as open by its own distance: nothing is shared with the
 /// horizons of sharp reaches that fast walks take the mean of.
 ExactSky find_exact_sky(const ExactWalker& walker, int row, int column,
-                        const std::optional<Reach>& reach = std::nullopt);
+                        const std::optional<Reach>& reach = std::nullopt,
+                        BelowHorizontal below = BelowHorizontal::sky);
+
+/// A where there is no sky below the horizontal, of what a receiver sees that is present.
+double sky_above_horizontal(const ExactWalker& walker, int row, int column, const SliceView& view);
 
 /// μ(d) of a reach: the share by which an occluder at distance d leaves its direction open.
 double open_share(const Reach& reach, double distance);

@@ -56,11 +56,19 @@ double ExactWalker::walk(int row, int column, const Eigen::Vector2d& azimuth, do
   return walk_profile(grid_, line, least_slope, stretches);
 }
 
+double ExactWalker::horizon_slope(int row, int column, const Eigen::Vector2d& azimuth) const {
+  std::vector<VisibleStretch> unused;
+  return walk(row, column, azimuth, std::numeric_limits<double>::infinity(), unused);
+}
+
+double ExactWalker::level_slope(int row, int column, const Eigen::Vector2d& azimuth) const {
+  const Gradient level = level_gradient(surface_.map, row, column);
+  return level.x * azimuth.x() + level.y * azimuth.y();
+}
+
 double ExactWalker::horizon_rad(int row, int column, double azimuth_rad) const {
   if (std::isnan(surface_.map.height(row, column))) return kNothingKnown;
-  std::vector<VisibleStretch> unused;
-  const double never = std::numeric_limits<double>::infinity();
-  return std::atan(walk(row, column, unit_azimuth(azimuth_rad), never, unused));
+  return std::atan(horizon_slope(row, column, unit_azimuth(azimuth_rad)));
 }
 
 void ExactWalker::view(int row, int column, SliceView& view) const {

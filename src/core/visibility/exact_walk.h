@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "heightlight/surface.h"
@@ -39,7 +40,8 @@ struct SliceView {
   double ambient_occlusion = 1;                            ///< α: of the solid angle
   double sky_view_factor = 1;                              ///< A: of the form factor
   Eigen::Vector3d bent_normal = Eigen::Vector3d::UnitZ();  ///< unit, cosine weighted; world axes
-  std::vector<double> horizon_rad;  ///< per azimuth: elevation of the profile's steepest point, which may be
+  std::vector<double> horizon_rad;  ///< per azimuth, in the map's axes: elevation of the profile's steepest
+                                    ///< point, which may be
                                     ///< below the tangent plane; −π/2 where there is no surface
   std::vector<VisibleInterval> links;  ///< by azimuth, each from below upwards
   std::vector<std::size_t> links_end;  ///< of each azimuth: behind its last link
@@ -48,6 +50,11 @@ struct SliceView {
 /// Bytes of what a receiver sees along so many azimuths. A profile over n texels has about 2 √n stretches in
 /// view where the ground is fractal, and fewer elsewhere.
 std::uint64_t slice_view_bytes(int width, int height, int azimuths);
+
+/// How far an exact walk goes for a reach, which is taken to lie on the map.
+inline double exact_reach(const std::optional<Reach>& reach) {
+  return reach ? reach->distance : std::numeric_limits<double>::infinity();
+}
 
 /// Walks from the vertices of a surface. Holds what all receivers share; the surface must outlive it.
 class ExactWalker {
@@ -73,6 +80,12 @@ class ExactWalker {
   /// is present; appends what is seen above `least_slope`.
   double walk(int row, int column, const Eigen::Vector2d& azimuth, double least_slope,
               std::vector<VisibleStretch>& stretches) const;
+
+  /// That slope alone.
+  double horizon_slope(int row, int column, const Eigen::Vector2d& azimuth) const;
+
+  /// Slope of what is level at the receiver, likewise: 0, unless the map is curved.
+  double level_slope(int row, int column, const Eigen::Vector2d& azimuth) const;
 
   const Surface& surface() const { return surface_; }
 

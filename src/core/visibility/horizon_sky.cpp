@@ -4,10 +4,10 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <memory>
 
-#include "base/parallel.h"
+#include "visibility/horizon_slope.h"
 #include "visibility/sky_walk.h"
+#include "visibility/walk_route.h"
 
 namespace heightlight {
 namespace {
@@ -21,56 +21,10 @@ struct Workspace {
   FarView far;
 };
 
-/// An azimuth, and what of it lies within the reach.
-struct Azimuth {
-  AzimuthTable table;
-  std::optional<ReachTable> reach;
-};
-
-/// Azimuths to walk along, with everything that all tiles share.
-struct Route {
-  std::vector<Azimuth> azimuths;
-  int rings = 0;
-};
-
-Route plan_route(const Surface& surface, const WalkOptions& options, const std::vector<double>& azimuths,
-                 const std::optional<Reach>& reach) {
-  Route route{{}, ring_count(surface, options)};
-  if (reach) {
-    check_reach(*reach);
-    route.rings = rings_within(surface, options, reach->distance, route.rings);
-  }
-  for (const double azimuth : azimuths) {
-    Azimuth& made = route.azimuths.emplace_back();
-    made.table = make_azimuth_table(surface, options, azimuth);
-    made.table.rings.resize(static_cast<std::size_t>(route.rings));
-    if (reach) made.reach = make_reach_table(made.table, *reach);
-  }
-  return route;
-}
-
-void walk_azimuth(const Azimuth& azimuth, Workspace& work) {
+void walk_azimuth(const RouteAzimuth& azimuth, Workspace& work) {
   if (azimuth.reach) return walk_sky_within(work.tile, azimuth.table, *azimuth.reach, work.sums);
   look_far(work.tile, azimuth.table, work.far);
   walk_sky(work.tile, azimuth.table, work.far, work.sums);
-}
-
-/// Loads tile after tile and calls visit(workspace) for each, on all threads.
-template <class Visit>
-void for_tiles(const Surface& surface, const HeightMips& mips, const WalkOptions& options, const Route& route,
-               const char* label, const Watch& watch, Visit&& visit) {
-  const TileGrid tiles(surface.width(), surface.height());
-  std::vector<std::unique_ptr<Workspace>> workspaces(static_cast<std::size_t>(thread_count()));
-  Progress progress(label, tiles.count(), watch);
-  parallel_for(
-      tiles.count(),
-      [&](std::int64_t tile) {
-        std::unique_ptr<Workspace>& work = workspaces[static_cast<std::size_t>(omp_get_thread_num())];
-        if (!work) work = std::make_unique<Workspace>();
-        work->tile.load(surface, mips, options, route.rings, tiles.frame(tile));
-        visit(*work);
-      },
-      &progress);
 }
 
 /// Calls write(texel of the map, index in the tile) for each receiver inside the map.
@@ -138,22 +92,23 @@ HorizonSky walk_horizon_sky(const Surface& surface, const HeightMips& mips, cons
                             const SkyTask& task, const Watch& watch) {
   assert(plan.full_from <= 0 || plan.walk.azimuths % 4 == 0);
   const WalkOptions& options = plan.walk;
-  std::vector<double> azimuths;
-  for (int k = 0; k < options.azimuths; ++k) azimuths.push_back(azimuth_rad(options, k));
-  const Route route = plan_route(surface, options, azimuths, task.reach);
+  const Route route = plan_route(surface, options, equal_azimuths(options), task.reach);
+  const std::vector<TileFrame> tiles = all_tiles(surface);
+  const RouteStep step{.route = route, .tiles = tiles, .label = "sky", .watch = watch};
   const int width = surface.width();
   const int height = surface.height();
   HorizonSky sky{Map(width, height), Map(width, height), {}};
   if (task.wanted.first) sky.moments.first = Image<Vector3>(width, height);
   if (task.wanted.second) sky.moments.second = Image<std::array<float, 5>>(width, height);
-  for_tiles(surface, mips, options, route, "sky", watch, [&](Workspace& work) {
+  for_tiles<Workspace>(surface, mips, options, step, [&](Workspace& work, std::size_t) {
     work.sums.wanted = task.wanted;
+    work.sums.below = task.below;
     work.sums.steep = steep_slope(plan.full_from > 0 ? options.azimuths / 2 : options.azimuths);
     work.sums.clear();
     if (plan.full_from > 0) {
       walk_sparsely(route, plan.full_from, work);
     } else {
-      for (const Azimuth& azimuth : route.azimuths) walk_azimuth(azimuth, work);
+      for (const RouteAzimuth& azimuth : route.azimuths) walk_azimuth(azimuth, work);
     }
     write_tile(work, options.azimuths, sky);
   });
@@ -170,14 +125,17 @@ std::vector<Map> walk_horizons(const Surface& surface, const HeightMips& mips, c
   std::optional<Reach> sharp = reach;
   if (sharp) sharp->falloff = Falloff::none;
   const Route route = plan_route(surface, options, azimuths, sharp);
+  const std::vector<TileFrame> tiles = all_tiles(surface);
+  const RouteStep step{.route = route, .tiles = tiles, .label = "horizons", .watch = watch};
   std::vector<Map> horizons(azimuths.size(), Map(surface.width(), surface.height()));
-  for_tiles(surface, mips, options, route, "horizons", watch, [&](Workspace& work) {
+  for_tiles<Workspace>(surface, mips, options, step, [&](Workspace& work, std::size_t) {
     work.sums.keep_slope = true;
     work.sums.clear();
     for (std::size_t k = 0; k < route.azimuths.size(); ++k) {
       walk_azimuth(route.azimuths[k], work);
       for_receivers(work.tile, horizons[k], [&](std::size_t texel, std::size_t at) {
-        horizons[k].values[texel] = work.tile.present[at] ? std::atan(work.sums.slope[at]) : kMissing;
+        const float level = level_slope(work.tile, route.azimuths[k].table, at);
+        horizons[k].values[texel] = work.tile.present[at] ? std::atan(work.sums.slope[at] - level) : kMissing;
       });
     }
   });

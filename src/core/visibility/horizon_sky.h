@@ -18,10 +18,11 @@ struct HorizonSky {
   SkyMoments moments;     ///< those that were wanted
 };
 
-/// How much more than the shares is found, and how far occluders count.
+/// How much more than the shares is found, how far occluders count, and what is below the horizontal.
 struct SkyTask {
   SkyWanted wanted = {};
   std::optional<Reach> reach = {};  ///< everywhere, where absent
+  BelowHorizontal below = BelowHorizontal::sky;
 };
 
 /// By the sums so far: the RMS of 1 − A over the receivers of a tile's block that are present.
@@ -33,9 +34,9 @@ HorizonSky walk_horizon_sky(const Surface& surface, const HeightMips& mips, cons
 /// Bytes per texel of what it returns.
 std::uint64_t horizon_sky_bytes(const SkyWanted& wanted);
 
-/// Elevation of the horizon, rad, toward each azimuth (rad, counterclockwise from x), at least that of the
-/// tangent plane: [azimuth]. NaN where the sample is missing. A reach is taken to be sharp. Azimuths of
-/// `options` are not used.
+/// Elevation of the horizon above what is level at the receiver, rad, toward each azimuth (rad,
+/// counterclockwise from x), at least that of the tangent plane: [azimuth]. NaN where the sample is missing.
+/// A reach is taken to be sharp. Azimuths of `options` are not used.
 std::vector<Map> walk_horizons(const Surface& surface, const HeightMips& mips, const WalkOptions& options,
                                const std::vector<double>& azimuths, const std::optional<Reach>& reach,
                                const Watch& watch = {});

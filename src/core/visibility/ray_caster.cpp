@@ -148,6 +148,27 @@ void RayCaster::view(int row, int column, RayWorkspace& workspace, ReceiverView&
   }
 }
 
+SkyShare RayCaster::share_above_horizontal(int row, int column, const ReceiverView& view,
+                                           RayWorkspace& workspace) const {
+  aim_directions(row, column, directions_.turn(row, column), workspace);
+  const Gradient level = level_gradient(surface_.map, row, column);
+  const auto level_x = static_cast<float>(level.x * surface_.map.spacing.x);
+  const auto level_y = static_cast<float>(-level.y * surface_.map.spacing.y);  // rows run down, y up
+  SkyShare share = sky_share(view);
+  auto hit = view.ray.begin();
+  for (int k = 0; k < view.rays; ++k) {
+    if (hit != view.ray.end() && *hit == k) {
+      ++hit;
+      continue;
+    }
+    const auto i = static_cast<std::size_t>(k);
+    if (workspace.slope[i] >= level_x * workspace.step_u[i] + level_y * workspace.step_v[i]) continue;
+    share.ambient_occlusion -= 1.0 / view.rays;
+    share.sky_view_factor -= view.weight[k];
+  }
+  return {std::max(0.0, share.ambient_occlusion), std::max(0.0, share.sky_view_factor)};
+}
+
 SkyShare sky_share(const ReceiverView& view) {
   double seen = 0;
   for (const std::uint16_t ray : view.ray) seen += view.weight[ray];

@@ -31,6 +31,11 @@ class RayCaster {
   /// What the receiver at (row, column) sees. Safe to call from many threads with a workspace each.
   void view(int row, int column, RayWorkspace& workspace, ReceiverView& view) const;
 
+  /// The sky's share of that view where there is no sky below the horizontal: rays that miss and point there
+  /// count as hits.
+  SkyShare share_above_horizontal(int row, int column, const ReceiverView& view,
+                                  RayWorkspace& workspace) const;
+
   /// The grid rays of a receiver that is present, without the ways after which they are sure of the sky: what
   /// another ray tracer needs to send the same rays.
   RayBundle aim_directions(int row, int column, const LatticeTurn& turn, RayWorkspace& workspace) const;

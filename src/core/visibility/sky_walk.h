@@ -62,6 +62,9 @@ struct SkySums {
   alignas(64) std::array<Values, 3> first{};   ///< wanted.first: Σ of twice the slices' moments of ω
   alignas(64) std::array<Values, 5> second{};  ///< wanted.second: of x² − y², xy, z², xz, yz
 
+  BelowHorizontal below = BelowHorizontal::sky;  ///< ground: walks start at what is level, where that is
+                                                 ///< higher than the tangent plane; S(m₀) stays
+
   bool keep_slope = false;
   alignas(64) Values slope{};  ///< keep_slope: of the last azimuth's horizon, m
 

@@ -4,96 +4,13 @@
 #include <utility>
 
 #include "heightlight/forms.h"
+#include "visibility/horizon_slope.h"
 #include "visibility/sky_walk.h"
 
 namespace heightlight {
 namespace {
 
 constexpr float kHalfPi = std::numbers::pi_v<float> / 2;
-
-/// Slope under which the receiver in row i and column j of the tile sees near sample k.
-float near_slope(const WalkTile& tile, const AzimuthTable& azimuth, std::size_t k, int i, int j) {
-  const NearSample& sample = azimuth.near[k];
-  const int row = tile.first_row + i;
-  const int column = tile.first_column + j;
-  const HeightWindow& window = k < azimuth.lifted ? tile.windows[0] : tile.lifted;
-  const float weighted = sample.weight[0] * window.at(row + sample.row[0], column + sample.column[0]) +
-                         sample.weight[1] * window.at(row + sample.row[1], column + sample.column[1]);
-  return weighted - sample.per_distance * tile.height[static_cast<std::size_t>(i * WalkTile::kSide + j)];
-}
-
-float ring_slope(const WalkTile& tile, const RingSample& sample, int ring, int i, int j) {
-  const HeightWindow& window = tile.windows[static_cast<std::size_t>(ring)];
-  const float height = window.at((tile.first_row + i + sample.row) >> window.level,
-                                 (tile.first_column + j + sample.column) >> window.level);
-  return (height - tile.height[static_cast<std::size_t>(i * WalkTile::kSide + j)]) * sample.per_distance;
-}
-
-/// Slope of the horizon seen from the receiver in row i and column j of the tile, at least `tangent`.
-float horizon_slope(const WalkTile& tile, const AzimuthTable& azimuth, const FarView& far, int i, int j,
-                    float tangent) {
-  const float z = tile.height[static_cast<std::size_t>(i * WalkTile::kSide + j)];
-  float slope = tangent;
-  for (std::size_t k = 0; k < azimuth.near.size(); ++k)
-    slope = std::max(slope, near_slope(tile, azimuth, k, i, j));
-  constexpr int kSide = WalkTile::kGroup;
-  constexpr int kMiddle = kSide / 2;
-  const auto group = static_cast<std::size_t>(i / kSide * (WalkTile::kSide / kSide) + j / kSide);
-  const float nearer = static_cast<float>(i % kSide - kMiddle) * azimuth.along_row +
-                       static_cast<float>(j % kSide - kMiddle) * azimuth.along_column;
-  for (std::size_t line = 0; line < FarView::kLines; ++line) {
-    const float per_d = far.per_distance[line][group];
-    slope = std::max(slope, (far.height[line][group] - z) * (per_d + nearer * per_d * per_d));
-  }
-  return slope;
-}
-
-/// A point of the profile: its distance and its height from the receiver's.
-struct ProfilePoint {
-  float way = 0;
-  float rise = 0;
-
-  float squared() const { return rise * rise + way * way; }
-};
-
-/// Slope to the place where the stretch between two points leaves the sphere of the reach, if it does and
-/// ends above or beyond it; else −∞. The line p + g t meets the sphere where (1 + g²) t² + 2 p g t + p² = D².
-float exit_slope(const ProfilePoint& begin, const ProfilePoint& end, const ReachTable& reach) {
-  const bool above = begin.rise > 0 && begin.squared() > reach.squared;
-  if (begin.rise <= reach.deepest || above) return kNoHeight;
-  const float g = (end.rise - begin.rise) / run_between(begin.way, end.way);
-  const float p = begin.rise - g * begin.way;
-  const float u = 1 + g * g;
-  const float root = reach.squared * u - p * p;
-  if (root < 0 || p >= 0) return kNoHeight;  // p ≥ 0: from the beginning on it only falls
-  const float way = (std::sqrt(root) - p * g) / u;
-  constexpr float kRounding = 1e-5F;
-  if (way < begin.way * (1 - kRounding) || way > end.way * (1 + kRounding)) return kNoHeight;
-  return p / way + g;
-}
-
-/// Likewise, of what lies within the reach.
-float horizon_slope_within(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach, int i,
-                           int j, float tangent) {
-  float slope = tangent;
-  ProfilePoint begin;
-  for (std::size_t k = 0; k < reach.near; ++k) {
-    const NearSample& sample = azimuth.near[k];
-    const float seen = near_slope(tile, azimuth, k, i, j);
-    const float way = 1 / sample.per_distance;
-    const ProfilePoint end{way, std::max(seen * way, reach.deepest)};
-    const bool inside = end.squared() <= reach.squared;
-    slope = std::max(slope, inside ? seen : exit_slope(begin, end, reach));
-    begin = end;
-  }
-  for (std::size_t ring = 0; ring < reach.caps.size(); ++ring) {
-    for (std::size_t k = 0; k < reach.caps[ring].size(); ++k) {
-      const float seen = ring_slope(tile, azimuth.rings[ring][k], static_cast<int>(ring) + 1, i, j);
-      slope = std::max(slope, std::min(seen, reach.caps[ring][k]));
-    }
-  }
-  return slope;
-}
 
 /// What a slice sends from above slope m, in the plane of its azimuth; sky_walk.h derives it. Differences of
 /// two are what lies between their slopes.
@@ -198,9 +115,9 @@ std::pair<float, float> slopes_inside(const ProfilePoint& begin, const ProfilePo
 
 /// The slice of a receiver with a reach.
 SliceSums slice_within(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach, int i,
-                       int j, float c, float n_z, float tangent, const SkyWanted& wanted) {
+                       int j, float c, float n_z, float lowest, const SkyWanted& wanted) {
   SliceSums open;
-  float m = tangent;
+  float m = lowest;
   SliceSums above = integrate_slice(c, n_z, m, wanted);
   ProfilePoint begin;
   const auto see = [&](const ProfilePoint& from, const ProfilePoint& to, float seen) {
@@ -260,28 +177,31 @@ void add_slice(const AzimuthTable& azimuth, std::size_t at, const SliceSums& sli
   }
 }
 
-/// Calls slice_of(i, j, c, n_z, tangent) for every receiver of the tile and adds what it returns.
+/// Calls slice_of(i, j, c, n_z, lowest) for every receiver of the tile and adds what it returns. Nothing
+/// below the slope `lowest` sends anything.
 template <class SliceOf>
 void for_receivers(const WalkTile& tile, const AzimuthTable& azimuth, SkySums& sums, SliceOf&& slice_of) {
   for (int i = 0; i < tile.rows; ++i) {
     for (int j = 0; j < tile.columns; ++j) {
       if (!sums.blocks[sky_block(i, j)]) continue;
       const auto at = static_cast<std::size_t>(i * WalkTile::kSide + j);
-      const float tangent = tile.slope_x[at] * azimuth.world_x + tile.slope_y[at] * azimuth.world_y;
+      const float tangent = tangent_slope(tile, azimuth, at);
       const float n_z = tile.normal_z[at];
       const float c = -n_z * tangent;
       const bool steep = n_z * n_z * (1 + sums.steep * sums.steep) < 1;
       const float full = steep ? integrate_slice(c, n_z, tangent, {}).sky : 1;
-      add_slice(azimuth, at, slice_of(i, j, c, n_z, tangent), full, sums);
+      const float lowest =
+          sums.below == BelowHorizontal::ground ? std::max(tangent, level_slope(tile, azimuth, at)) : tangent;
+      add_slice(azimuth, at, slice_of(i, j, c, n_z, lowest), full, sums);
     }
   }
 }
 
-/// Likewise, of what lies above horizon(i, j, tangent).
+/// Likewise, of what lies above horizon(i, j, lowest).
 template <class Horizon>
 void add_above(const WalkTile& tile, const AzimuthTable& azimuth, SkySums& sums, Horizon&& horizon) {
-  for_receivers(tile, azimuth, sums, [&](int i, int j, float c, float n_z, float tangent) {
-    const float m = horizon(i, j, tangent);
+  for_receivers(tile, azimuth, sums, [&](int i, int j, float c, float n_z, float lowest) {
+    const float m = horizon(i, j, lowest);
     if (sums.keep_slope) sums.slope[static_cast<std::size_t>(i * WalkTile::kSide + j)] = m;
     return integrate_slice(c, n_z, m, sums.wanted);
   });
@@ -298,19 +218,19 @@ void SkySums::clear() {
 
 void walk_sky_scalar(const WalkTile& tile, const AzimuthTable& azimuth, const FarView& far, SkySums& sums) {
   add_above(tile, azimuth, sums,
-            [&](int i, int j, float tangent) { return horizon_slope(tile, azimuth, far, i, j, tangent); });
+            [&](int i, int j, float lowest) { return horizon_slope(tile, azimuth, far, i, j, lowest); });
 }
 
 void walk_sky_within_scalar(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach,
                             SkySums& sums) {
   if (sums.keep_slope) {
-    add_above(tile, azimuth, sums, [&](int i, int j, float tangent) {
-      return horizon_slope_within(tile, azimuth, reach, i, j, tangent);
+    add_above(tile, azimuth, sums, [&](int i, int j, float lowest) {
+      return horizon_slope_within(tile, azimuth, reach, i, j, lowest);
     });
     return;
   }
-  for_receivers(tile, azimuth, sums, [&](int i, int j, float c, float n_z, float tangent) {
-    return slice_within(tile, azimuth, reach, i, j, c, n_z, tangent, sums.wanted);
+  for_receivers(tile, azimuth, sums, [&](int i, int j, float c, float n_z, float lowest) {
+    return slice_within(tile, azimuth, reach, i, j, c, n_z, lowest, sums.wanted);
   });
 }
 

@@ -94,16 +94,21 @@ HWY_INLINE void add_slices(const WalkTile& tile, const AzimuthTable& azimuth, co
   }
 }
 
-/// Calls work(walk, bunch) for the receivers of the tile that walk.
+/// Calls work(walk, bunch) for the receivers of the tile that walk, from the lowest slope on that sends
+/// anything.
 template <class Work>
-HWY_INLINE void for_bunches(const WalkTile& tile, const AzimuthTable& azimuth, const SkyBlocks& blocks,
+HWY_INLINE void for_bunches(const WalkTile& tile, const AzimuthTable& azimuth, const SkySums& sums,
                             Work&& work) {
   static_assert(kBunch == kSkyBlockRows && hn::MaxLanes(kF) <= kSkyBlockColumns);
   const LaneWalk walk(tile, azimuth);
   for (int row = 0; row < tile.rows; row += static_cast<int>(kBunch)) {
     for (int column = 0; column < tile.columns; column += static_cast<int>(hn::Lanes(kF))) {
-      if (!blocks[sky_block(row, column)]) continue;
+      if (!sums.blocks[sky_block(row, column)]) continue;
       Bunch bunch = walk.begin(row, column);
+      if (sums.below == BelowHorizontal::ground) {
+        for (std::size_t v = 0; v < kBunch; ++v)
+          bunch.slope[v] = hn::Max(bunch.slope[v], walk.level_slope(bunch, v));
+      }
       work(walk, bunch);
     }
   }
@@ -112,7 +117,7 @@ HWY_INLINE void for_bunches(const WalkTile& tile, const AzimuthTable& azimuth, c
 /// Likewise, and adds what lies above the horizons that look(walk, bunch) finds.
 template <class Look>
 HWY_INLINE void add_above(const WalkTile& tile, const AzimuthTable& azimuth, SkySums& sums, Look&& look) {
-  for_bunches(tile, azimuth, sums.blocks, [&](const LaneWalk& walk, Bunch& bunch) HWY_ATTR {
+  for_bunches(tile, azimuth, sums, [&](const LaneWalk& walk, Bunch& bunch) HWY_ATTR {
     look(walk, bunch);
     for (std::size_t v = 0; v < kBunch; ++v) {
       const std::size_t at = bunch.at(v);
@@ -220,7 +225,7 @@ HWY_INLINE SlopePair slopes_inside(const Stretch& stretch, VF m, VF seen, const 
 
 HWY_INLINE void walk_chain(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach,
                            SkySums& sums) {
-  for_bunches(tile, azimuth, sums.blocks, [&](const LaneWalk& walk, Bunch& bunch) HWY_ATTR {
+  for_bunches(tile, azimuth, sums, [&](const LaneWalk& walk, Bunch& bunch) HWY_ATTR {
     const VF zero = hn::Zero(kF);
     std::array<VF, kBunch> n_z, c;
     std::array<SliceSums, kBunch> open, above;

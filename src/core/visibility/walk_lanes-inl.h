@@ -110,6 +110,13 @@ class LaneWalk {
     return bunch;
   }
 
+  /// Of what is level at the receivers of vector v.
+  VF level_slope(const Bunch& bunch, std::size_t v) const {
+    const std::size_t at = bunch.at(v);
+    return hn::MulAdd(hn::Load(kF, tile_.level_x.data() + at), hn::Set(kF, azimuth_.world_x),
+                      hn::Mul(hn::Load(kF, tile_.level_y.data() + at), hn::Set(kF, azimuth_.world_y)));
+  }
+
   void look_near(Bunch& bunch) const {
     for_near(bunch, azimuth_.near.size(), [&](const NearSample&, std::size_t v, VF seen) HWY_ATTR {
       bunch.slope[v] = hn::Max(bunch.slope[v], seen);

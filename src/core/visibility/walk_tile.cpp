@@ -164,6 +164,9 @@ void ReceiverTile::load_receivers(const Surface& surface, float reference, const
       slope_x[at] = falls * normal.x;
       slope_y[at] = falls * normal.y;
       normal_z[at] = normal.z;
+      const Gradient level = level_gradient(surface.map, first_row + i, first_column + j);
+      level_x[at] = static_cast<float>(level.x);
+      level_y[at] = static_cast<float>(level.y);
     }
   }
 }

@@ -75,6 +75,8 @@ struct ReceiverTile : TileFrame {
   alignas(64) std::array<float, kTexels> slope_x;  ///< of the plane that the normal stands on, per world unit
   alignas(64) std::array<float, kTexels> slope_y;
   alignas(64) std::array<float, kTexels> normal_z;
+  alignas(64) std::array<float, kTexels> level_x;  ///< slopes of what is level there (level_gradient)
+  alignas(64) std::array<float, kTexels> level_y;
   std::array<bool, kTexels> present;
 
   void load_receivers(const Surface& surface, float reference, const TileFrame& frame);

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "heightlight/visibility.h"
+#include "visibility/far_view.h"
+#include "visibility/reach_table.h"
+
+// Means over azimuths of what terrain science makes of a horizon (SkyDefinition). Walks start with no horizon
+// at all, not at the tangent plane, so that it stands where the surface has it.
+
+namespace heightlight {
+
+/// Of what the means are, h the horizon's elevation above what is level.
+enum class HorizonMean {
+  squared_cosine,  ///< cos² h, h ≥ 0
+  one_less_sine,   ///< 1 − sin h, h ≥ 0
+  cosine,          ///< cos h, h ≥ 0
+  zenith_angle     ///< π/2 − h
+};
+constexpr std::size_t kHorizonMeans = 4;
+
+/// Per mean, in that order.
+template <class T>
+using HorizonTerms = std::array<T, kHorizonMeans>;
+
+/// Slopes from here down are those of no surface: that of kNoHeight at the least weight and the farthest
+/// distance.
+constexpr float kNoSlope = -1e9F;
+
+/// Of a horizon that is seen under `slope`, where the tangent plane is under `tangent`, both above what is
+/// level: that plane stands for a horizon where there is none.
+template <class T>
+HorizonTerms<T> horizon_terms(T slope, T tangent) {
+  const T h = std::atan(slope > static_cast<T>(kNoSlope) ? slope : tangent);
+  const T m = std::max(slope, T{0});
+  const T q = 1 / (1 + m * m);
+  const T cosine = std::sqrt(q);
+  return {q, 1 - m * cosine, cosine, std::numbers::pi_v<T> / 2 - h};
+}
+
+/// Sums of these over the azimuths walked so far, per receiver of a tile.
+struct HorizonSums {
+  alignas(64) HorizonTerms<std::array<float, WalkTile::kTexels>> of{};
+};
+
+/// Walks one azimuth from every receiver of the tile. The readable one.
+void add_horizons_scalar(const WalkTile& tile, const AzimuthTable& azimuth, const FarView& far,
+                         HorizonSums& sums);
+
+/// Likewise, with occluders only as far as a reach, which is taken to be sharp.
+void add_horizons_within_scalar(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach,
+                                HorizonSums& sums);
+
+/// The fast ones: receivers side by side. The same sums, as those of sky walks are.
+void add_horizons(const WalkTile& tile, const AzimuthTable& azimuth, const FarView& far, HorizonSums& sums);
+void add_horizons_within(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach,
+                         HorizonSums& sums);
+
+}  // namespace heightlight
