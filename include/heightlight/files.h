@@ -42,6 +42,8 @@ struct LoadOptions {
   bool degrees_in_metres = false;  ///< the file must tell a spacing in degrees, which becomes metres
   int shrink = 1;       ///< means of shrink × shrink samples take their place; must divide both sides
   bool invert = false;  ///< the file holds depths: the highest value is the lowest place
+  std::optional<double> curvature =
+      {};  ///< refraction k: heights are lowered by the Earth's curvature (curve_heights), last of all
 };
 
 /// Levels are counted up to here: as many as 16 bits can tell apart.

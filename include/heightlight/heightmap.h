@@ -7,7 +7,8 @@ namespace heightlight {
 /// What lies beyond the outermost samples.
 enum class Boundary {
   tile,  ///< the map repeats without end (materials)
-  open   ///< nothing: a ray that leaves sees the sky, even below the horizontal (terrain)
+  open   ///< nothing: a ray that leaves sees the sky, even below the horizontal (terrain), unless
+         ///< BelowHorizontal has it otherwise
 };
 
 const char* to_string(Boundary boundary);

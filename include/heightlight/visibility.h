@@ -51,6 +51,18 @@ enum class BelowHorizontal {
 /// The one of that name: sky or ground. Throws UsageError where there is none.
 BelowHorizontal below_horizontal_named(const std::string& name);
 
+/// From where azimuths count.
+enum class AzimuthConvention {
+  math,  ///< counterclockwise from x
+  north  ///< clockwise from north, which is y, up the map
+};
+
+/// The one of that name: math or north. Throws UsageError where there is none.
+AzimuthConvention azimuth_convention_named(const std::string& name);
+
+/// So many azimuths from 0 on, in equal steps, as angles counterclockwise from x, rad.
+std::vector<double> equal_azimuths(int count, AzimuthConvention convention);
+
 /// What terrain science calls a sky view factor, or openness, by name. Means are over azimuths, equally
 /// spaced; h is the elevation of the horizon above the place's own horizontal, as it is: the tangent plane
 /// does not limit it, and on a ridge it is below 0. Where the formula says h ≥ 0 it is taken as 0 there.

@@ -22,7 +22,7 @@ from ._heights import Heightmap, read, read_sky, shapes, synth
 from ._judging import Judgement, judge
 from ._native import version as __version__
 from ._operator import Curves, Operator, operator
-from ._sky import Sky, sky
+from ._sky import Sky, definitions, sky
 from .forms import shader
 
 __all__ = [
@@ -38,6 +38,7 @@ __all__ = [
     "bake",
     "compare",
     "dataset",
+    "definitions",
     "fit",
     "forms",
     "judge",

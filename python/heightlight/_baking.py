@@ -11,7 +11,7 @@ import numpy as np
 from . import _native
 from ._heights import HeightLike, surface_of
 from ._operator import split_albedo
-from ._settings import integer, reach_of, settings
+from ._settings import integer, one_of, reach_of, settings
 
 
 class Bake(dict):
@@ -58,16 +58,19 @@ def bake(
     uniform_ao: bool = False,
     y_down: bool = False,
     horizon_azimuths: int = 4,
+    azimuth_convention: Optional[str] = None,
+    below_horizontal: str = "sky",
     seed: int = 1,
     threads: Optional[int] = None,
     memory: Optional[int] = None,
     progress: Any = False,
 ) -> Bake:
     """Maps of a material: "ao", "multibounce", "bent-normal", "bent-cone", "normal", "ao-n", "horizon", "sh",
-    "height" (`maps()` says what each is), found together.
+    "height", and the definitions of `definitions()` (`maps()` says what each is), found together.
 
     `albedo` is of multibounce: one number or three. `uniform_ao`: α in place of A. `y_down`: vectors as Direct3D
-    has them. Other arguments as those of `sky()`.
+    has them. `azimuth_convention`: horizons count "north", clockwise, or "math", from x toward y; where None,
+    north on open maps. Other arguments as those of `sky()`.
     """
     names = [maps] if isinstance(maps, str) else [str(name) for name in maps]
     surface, _ = surface_of(height, texel, boundary)
@@ -81,7 +84,10 @@ def bake(
         "falloff": fading,
         "uniform_ao": bool(uniform_ao),
         "y_down": bool(y_down),
-        "horizon_azimuths": integer("horizon_azimuths", horizon_azimuths, 1, 64),
+        "horizon_azimuths": integer("horizon_azimuths", horizon_azimuths, 1, 360),
     }
+    if azimuth_convention is not None:
+        choice["azimuth_convention"] = one_of("azimuth_convention", azimuth_convention, ("north", "math"))
+    choice["below_horizontal"] = one_of("below_horizontal", below_horizontal, ("sky", "ground"))
     chosen = settings(error, azimuths, None, seed, threads, memory, progress)
     return Bake(_native.Bake(surface, chosen, names, choice), names)

@@ -107,7 +107,7 @@ def _scaled(map: Heightmap, share: float) -> Heightmap:
     lowest, highest = np.nanmin(heights), np.nanmax(heights)
     if highest > lowest:
         heights = (heights - lowest) * (share * map.shape[1] * map.texel[0] / (highest - lowest))
-    return Heightmap(heights.astype(np.float32), map.texel, map.boundary)
+    return Heightmap(heights.astype(np.float32), map.texel, map.boundary, curvature=map.curvature)
 
 
 def fit(

@@ -20,6 +20,8 @@ class Heightmap:
         texel: (x, y), distance between samples, world units.
         boundary: "tile" (the map repeats) or "open" (beyond it there is nothing).
         base: world height of 0 in `height`.
+        curvature: None, or the refraction k, usually 0.13: heights are lowered by the Earth's curvature about
+            the map's middle where light is found on them. World units are metres, the boundary is "open".
         facts: of the file that it was read from; empty otherwise.
     """
 
@@ -30,6 +32,7 @@ class Heightmap:
         boundary: str = "tile",
         *,
         base: float = 0.0,
+        curvature: Optional[float] = None,
         facts: Optional[dict[str, Any]] = None,
     ) -> None:
         self.height = numbers("height", height)
@@ -38,6 +41,7 @@ class Heightmap:
         self.texel = spacing(texel, self.height)
         self.boundary = str(boundary)
         self.base = float(base)
+        self.curvature = None if curvature is None else real("curvature", curvature)
         self.facts = dict(facts or {})
 
     @property
@@ -90,12 +94,16 @@ def surface_of(height: Any, texel: Any, boundary: Any) -> tuple[Any, Heightmap]:
         map = height
         if texel is not None or boundary is not None:
             map = Heightmap(
-                height.height, height.texel if texel is None else texel, boundary or height.boundary, base=height.base
+                height.height,
+                height.texel if texel is None else texel,
+                boundary or height.boundary,
+                base=height.base,
+                curvature=height.curvature,
             )
     else:
         map = Heightmap(height, texel, "tile" if boundary is None else boundary)
     x, y = map.texel
-    return _native.Surface(map.height, x, y, map.boundary), map
+    return _native.Surface(map.height, x, y, map.boundary, map.curvature), map
 
 
 def synth(shape: str, size: int = 512, *, seed: int = 1, relief: float = 0.1, width: float = 1.0) -> Heightmap:
@@ -133,6 +141,7 @@ def read(
     offset: Optional[float] = None,
     shrink: int = 1,
     invert: bool = False,
+    curvature: Optional[float] = None,
 ) -> Heightmap:
     """A heightmap from a file: PNG, EXR, TIFF, Esri ASCII grid, JPEG, TGA, HDR, .npy, SRTM's .hgt, or raw samples.
 
@@ -140,7 +149,7 @@ def read(
     tenth). Float samples are heights as they are. `texel` (one spacing or (x, y)) or `width` says how far apart
     samples are; a GeoTIFF and an Esri grid say so themselves, and "auto" turns degrees into metres. `scale` and
     `offset` make heights of levels: height per stored value, and of a stored 0. Raw samples want their `size` (rows,
-    columns), and `big_endian` where their highest byte comes first. What a user should know of the file is warned of.
+    columns), and `big_endian` where their highest byte comes first. `curvature` as Heightmap has it. What a user should know of the file is warned of.
 
     Raises OSError naming the file that cannot be read, ValueError for arguments that make no sense.
     """
@@ -165,7 +174,12 @@ def read(
     for warning in found["warnings"]:
         warnings.warn(f"{path}: {warning}", stacklevel=2)
     return Heightmap(
-        found["heights"], found["texel"], found["boundary"], base=found["base"], facts=found["facts"]
+        found["heights"],
+        found["texel"],
+        found["boundary"],
+        base=found["base"],
+        curvature=curvature,
+        facts=found["facts"],
     )
 
 

@@ -82,11 +82,16 @@ def settings(
     )
 
 
+def one_of(name: str, value: Any, known: tuple[str, ...]) -> str:
+    """A word. Raises ValueError naming it, and what it may be."""
+    if value not in known:
+        raise ValueError(f"{name} {value!r}: must be one of {', '.join(known)}")
+    return value
+
+
 FALLOFFS = ("none", "linear", "sqrt", "exponential")
 
 
 def reach_of(reach: Any, falloff: Any) -> tuple[Optional[float], str]:
     """A distance in world units, or None, and how occluders within it fade."""
-    if falloff not in FALLOFFS:
-        raise ValueError(f"falloff {falloff!r}: must be one of {', '.join(FALLOFFS)}")
-    return (None if reach is None else real("reach", reach)), falloff
+    return (None if reach is None else real("reach", reach)), one_of("falloff", falloff, FALLOFFS)

@@ -9,27 +9,28 @@ import numpy as np
 
 from . import _native
 from ._heights import HeightLike, surface_of
-from ._settings import integer, reach_of, real, settings
+from ._settings import integer, one_of, reach_of, real, settings
 
 
 class Sky:
     """What `sky()` returns. Each quantity is found when it is first asked for, and kept."""
 
-    def __init__(self, surface: Any, chosen: Any, reach: Optional[float], falloff: str) -> None:
+    def __init__(self, surface: Any, chosen: Any, reach: Optional[float], falloff: str, below: str = "sky") -> None:
         self._surface = surface
         self._settings = chosen
-        self._reach = (reach, falloff)
+        self._task = (reach, falloff, below)
         self._shares: Optional[dict[str, Any]] = None
         self._moments: Optional[dict[str, Any]] = None
+        self._definitions: dict[str, np.ndarray] = {}
 
     def _found(self) -> dict[str, Any]:
         if self._shares is None:
-            self._shares = _native.sky(self._surface, self._settings, False, *self._reach)
+            self._shares = _native.sky(self._surface, self._settings, False, *self._task)
         return self._shares
 
     def _found_moments(self) -> dict[str, Any]:
         if self._moments is None:
-            self._moments = _native.sky(self._surface, self._settings, True, *self._reach)
+            self._moments = _native.sky(self._surface, self._settings, True, *self._task)
         return self._moments
 
     @property
@@ -54,21 +55,39 @@ class Sky:
         found = self._found_moments()
         return found["first"], found["second"]
 
-    def horizons(self, azimuths: Union[int, Sequence[float]]) -> np.ndarray:
+    def definition(self, name: str) -> np.ndarray:
+        """What terrain science calls by that name, (rows, columns) float32: "svf-tilted" (A), "svf-horizontal",
+        "svf-solid-angle", "openness-positive" and "openness-negative" (rad), "mean-cos-h", "terrain-view-factor".
+        `definitions()` has their formulas. Found to the error wanted of A. Raises ValueError for other names."""
+        if name not in self._definitions:
+            found = _native.definitions(self._surface, self._settings, [str(name)], *self._task)
+            self._definitions[name] = found["definitions"][0]
+        return self._definitions[name]
+
+    def horizons(self, azimuths: Union[int, Sequence[float]], convention: str = "math") -> np.ndarray:
         """Elevations of the horizon, rad, at least those of the tangent plane: (azimuths, rows, columns) float32.
 
-        `azimuths`: how many, at 2π k/N; or the angles themselves, rad. They count from x toward y.
+        `azimuths`: how many, at 2π k/N; or the angles themselves, rad. They count from x toward y ("math"), or
+        clockwise from north, which is y ("north").
         """
         angles = angles_of(azimuths)
+        if one_of("convention", convention, ("math", "north")) == "north":
+            angles = [np.pi / 2 - angle for angle in angles]
         if not angles or not np.all(np.isfinite(angles)):
             raise ValueError("azimuths: must be finite angles, at least one")
-        return _native.horizons(self._surface, self._settings, angles, *self._reach)["horizons"]
+        return _native.horizons(self._surface, self._settings, angles, *self._task)["horizons"]
 
     @property
     def evidence(self) -> dict[str, Any]:
         """How A was found, what it errs by against exact walks, and what that cost."""
         found = self._moments if self._shares is None and self._moments is not None else self._found()
         return json.loads(found["evidence"])
+
+
+def definitions() -> dict[str, str]:
+    """What `Sky.definition` can find: name and formula. h is the elevation of the horizon above a place's own
+    horizontal; means are over azimuths."""
+    return _native.sky_definitions()
 
 
 def angles_of(azimuths: Any) -> list[float]:
@@ -89,6 +108,7 @@ def sky(
     rays: Optional[int] = None,
     reach: Optional[float] = None,
     falloff: str = "none",
+    below_horizontal: str = "sky",
     seed: int = 1,
     threads: Optional[int] = None,
     memory: Optional[int] = None,
@@ -105,6 +125,8 @@ def sky(
         rays: by so many rays per texel, the reference, in place of horizon walks.
         reach: occluders count up to this distance, world units; `falloff` ("none", "linear", "sqrt",
             "exponential") says how they fade toward it.
+        below_horizontal: what lies there in directions that miss the surface: "sky", or "ground", which does not
+            shine, as terrain tools have it: A of a plane tilted by S is then (1 + cos S)/2.
         seed: of every random choice. threads: as many as there are processors where None; results do not
             depend on it. memory: bytes that may be taken.
         progress: True shows bars where tqdm is installed; or a function of (name, done, total, ended).
@@ -117,4 +139,5 @@ def sky(
     """
     surface, _ = surface_of(height, texel, boundary)
     chosen = settings(error, azimuths, rays, seed, threads, memory, progress)
-    return Sky(surface, chosen, *reach_of(reach, falloff))
+    below = one_of("below_horizontal", below_horizontal, ("sky", "ground"))
+    return Sky(surface, chosen, *reach_of(reach, falloff), below)

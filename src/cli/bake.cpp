@@ -172,16 +172,27 @@ void add_map_content_options(CLI::App& app, BakeCommand& command) {
          "1 - sqrt(d/D) (sqrt), or by exp(-4 d/D), shifted to end at D (exponential)")
       ->check(CLI::IsMember(falloff_names()));
   app.add_flag("--bent-length", options.bent_length, "keep the length of bent normals in alpha");
-  app.add_option("--horizon-azimuths", options.horizon_azimuths, "azimuths of the horizon map (4)");
+  app.add_option("--horizon-azimuths", options.horizon_azimuths, "azimuths of the horizon map, 1 to 360 (4)");
+  app.add_option_function<std::string>(
+         "--azimuth-convention",
+         [&options](const std::string& text) { options.azimuth_convention = azimuth_convention_named(text); },
+         "of the horizon map: north, clockwise from it (default of open maps), or math, from x toward y")
+      ->check(CLI::IsMember({"north", "math"}));
+  app.add_option_function<std::string>(
+         "--below-horizontal",
+         [&options](const std::string& text) { options.below = below_horizontal_named(text); },
+         "what lies there where no surface is: sky (default), or ground, which does not shine; then A of a "
+         "plane tilted by S is (1 + cos S)/2. Not for ao-n")
+      ->check(CLI::IsMember({"sky", "ground"}));
 }
 
 std::string describe_maps() {
   std::string text = "Maps:\n";
   for (const MaterialMapName& entry : material_maps()) {
     const std::string name = entry.name;
-    text += "  " + name + std::string(13 - name.size(), ' ') + entry.description + "\n";
+    text += "  " + name + std::string(21 - name.size(), ' ') + entry.description + "\n";
   }
-  return text;
+  return text + "h is the elevation of the horizon, V visibility of the sky; means are over azimuths.\n";
 }
 
 }  // namespace

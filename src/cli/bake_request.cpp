@@ -14,24 +14,29 @@ namespace heightlight {
 
 std::string request_of(const BakeCommand& command, const BakeOptions& options, const std::string& map_sha256,
                        const std::string& albedo_sha256) {
-  return request_key({{"version", HEIGHTLIGHT_VERSION},
-                      {"map", map_sha256},
-                      {"load", describe_load_options(command.load)},
-                      {"maps", command.maps},
-                      {"pack", command.packed},
-                      {"albedo", albedo_sha256.empty() ? command.albedo : albedo_sha256},
-                      {"max_distance", command.max_distance},
-                      {"falloff", command.falloff},
-                      {"uniform_ao", options.uniform_ao},
-                      {"depth", static_cast<int>(options.depth)},
-                      {"format", static_cast<int>(options.format)},
-                      {"y_down", options.y_down},
-                      {"bent_length", options.bent_length},
-                      {"dither", options.dither},
-                      {"horizon_azimuths", options.horizon_azimuths},
-                      {"error", options.error},
-                      {"azimuths", options.azimuths},
-                      {"seed", options.seed}});
+  nlohmann::ordered_json request = {{"version", HEIGHTLIGHT_VERSION},
+                                    {"map", map_sha256},
+                                    {"load", describe_load_options(command.load)},
+                                    {"maps", command.maps},
+                                    {"pack", command.packed},
+                                    {"albedo", albedo_sha256.empty() ? command.albedo : albedo_sha256},
+                                    {"max_distance", command.max_distance},
+                                    {"falloff", command.falloff},
+                                    {"uniform_ao", options.uniform_ao},
+                                    {"depth", static_cast<int>(options.depth)},
+                                    {"format", static_cast<int>(options.format)},
+                                    {"y_down", options.y_down},
+                                    {"bent_length", options.bent_length},
+                                    {"dither", options.dither},
+                                    {"horizon_azimuths", options.horizon_azimuths},
+                                    {"error", options.error},
+                                    {"azimuths", options.azimuths},
+                                    {"seed", options.seed}};
+  // Only where they are given: what was baked before there were such options stays.
+  if (options.below == BelowHorizontal::ground) request["below_horizontal"] = "ground";
+  if (options.azimuth_convention)
+    request["azimuth_convention"] = static_cast<int>(*options.azimuth_convention);
+  return request_key(request);
 }
 
 std::string surface_of(const BakeCommand& command, const std::string& map_sha256) {

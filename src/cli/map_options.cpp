@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "base/byte_size.h"
+#include "base/digits.h"
 #include "heightlight/error.h"
 
 namespace heightlight {
@@ -31,6 +32,19 @@ Spacing parse_spacing(const std::string& text) {
     return {both, both};
   }
   return {parse_length(text.substr(0, cross), text), parse_length(text.substr(cross + 1), text)};
+}
+
+double parse_refraction(const std::string& text) {
+  std::size_t used = 0;
+  double value = 0;
+  try {
+    value = std::stod(text, &used);
+  } catch (const std::exception&) {
+    used = 0;
+  }
+  if (used == 0 || used != text.size() || !(value >= 0 && value < 1))
+    throw UsageError("curvature", text, "write the coefficient of refraction, from 0 to below 1, or nothing");
+  return value;
 }
 
 std::array<int, 2> parse_size(const std::string& text) {
@@ -104,6 +118,14 @@ void add_load_options(CLI::App& command, LoadOptions& load) {
       .add_option("--shrink", load.shrink, "take the mean of N × N samples for one, for a quicker look (1)")
       ->type_name("N");
   command.add_flag("--invert", load.invert, "the file holds depths: its highest value is the lowest place");
+  command
+      .add_option_function<std::string>(
+          "--curvature", [&load](const std::string& text) { load.curvature = parse_refraction(text); },
+          "lower heights by the Earth's curvature about the map's middle, with the refraction K (0.13); an "
+          "open map, world units in metres. It costs no time")
+      ->expected(0, 1)
+      ->default_str(in_digits(kUsualRefraction))
+      ->type_name("[K]");
 }
 
 void add_resource_options(CLI::App& command, RunOptions& options) {

@@ -19,7 +19,7 @@ struct MapOptions {
 CLI::Validator whole_number();
 
 /// Adds `--relief --width --texel --boundary --size --big-endian --scale --offset --no-data --part --channel
-/// --shrink --invert`.
+/// --shrink --invert --curvature`.
 void add_load_options(CLI::App& command, LoadOptions& load);
 
 /// Adds MAP and what add_load_options adds.

@@ -24,6 +24,7 @@ nlohmann::ordered_json describe_load_options(const LoadOptions& load) {
   if (load.scale) described["scale"] = *load.scale;
   if (load.offset) described["offset"] = *load.offset;
   if (load.degrees_in_metres) described["texel"] = "auto";
+  if (load.curvature) described["curvature"] = *load.curvature;
   return described;
 }
 

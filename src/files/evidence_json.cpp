@@ -64,6 +64,10 @@ Json describe_visibility(const Evidence& evidence) {
       visibility["checked"]["total_rmse_by_albedo"].push_back(check.total_rmse);
     }
   }
+  for (const DefinitionCheck& check : evidence.definition_checks) {
+    visibility["definitions"][facts_of(check.definition).name] = {
+        {"azimuths", check.azimuths}, {"rmse", check.rmse ? Json(*check.rmse) : Json(nullptr)}};
+  }
   if (evidence.sky_check) visibility["checked_sky"] = describe_check(*evidence.sky_check);
   return visibility;
 }
@@ -85,14 +89,16 @@ Json describe_energy(const Evidence& evidence) {
 
 Json describe_map(const std::filesystem::path& path, const std::string& sha256, const Surface& surface) {
   const Heightmap& map = surface.map;
-  return {{"path", path.string()},
-          {"sha256", sha256},
-          {"width", map.height.width},
-          {"height", map.height.height},
-          {"texel", {map.spacing.x, map.spacing.y}},
-          {"relief", relief(map)},
-          {"boundary", to_string(map.boundary)},
-          {"missing", count_missing(map)}};
+  Json json = {{"path", path.string()},
+               {"sha256", sha256},
+               {"width", map.height.width},
+               {"height", map.height.height},
+               {"texel", {map.spacing.x, map.spacing.y}},
+               {"relief", relief(map)},
+               {"boundary", to_string(map.boundary)},
+               {"missing", count_missing(map)}};
+  if (map.curvature != 0) json["lowered_by"] = {{"times_squared_distance", map.curvature}};
+  return json;
 }
 
 Json describe_evidence(const Evidence& evidence) {

@@ -138,6 +138,7 @@ LoadedHeightmap load_heightmap(const std::filesystem::path& path, const LoadOpti
 
   for (const std::vector<Warning>& more : {find_doubts(map, stored, options), stored.warnings})
     loaded.warnings.insert(loaded.warnings.end(), more.begin(), more.end());
+  if (options.curvature) map = curve_heights(std::move(map), *options.curvature);
   loaded.facts = std::move(stored.facts);
   loaded.facts.sha256 = sha256_of_file(file);
   file.check_unchanged();

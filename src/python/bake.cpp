@@ -33,6 +33,8 @@ struct BakeChoice {
   bool uniform_ao = false;
   bool y_down = false;
   int horizon_azimuths = 4;
+  std::optional<AzimuthConvention> convention = {};
+  BelowHorizontal below = BelowHorizontal::sky;
 };
 
 /// A material that was found, and may be written.
@@ -48,6 +50,8 @@ class Bake {
     options_.uniform_ao = choice.uniform_ao;
     options_.y_down = choice.y_down;
     options_.horizon_azimuths = choice.horizon_azimuths;
+    options_.azimuth_convention = choice.convention;
+    options_.below = choice.below;
     const Request request = make_request(settings);
     options_.error = request.accuracy.error;
     options_.azimuths = request.accuracy.azimuths;
@@ -130,6 +134,9 @@ void add_bake(py::module_& module) {
   py::class_<Bake>(module, "Bake")
       .def(py::init([](const std::shared_ptr<Surface>& surface, const Settings& settings,
                        const std::vector<std::string>& maps, const py::dict& choice) {
+             std::optional<AzimuthConvention> convention;
+             if (choice.contains("azimuth_convention"))
+               convention = azimuth_convention_named(choice["azimuth_convention"].cast<std::string>());
              return std::make_unique<Bake>(
                  surface, settings, maps,
                  BakeChoice{.albedo = choice["albedo"].cast<std::vector<double>>(),
@@ -137,7 +144,9 @@ void add_bake(py::module_& module) {
                             .falloff = choice["falloff"].cast<std::string>(),
                             .uniform_ao = choice["uniform_ao"].cast<bool>(),
                             .y_down = choice["y_down"].cast<bool>(),
-                            .horizon_azimuths = choice["horizon_azimuths"].cast<int>()});
+                            .horizon_azimuths = choice["horizon_azimuths"].cast<int>(),
+                            .convention = convention,
+                            .below = below_horizontal_named(choice["below_horizontal"].cast<std::string>())});
            }),
            py::arg("surface"), py::arg("settings"), py::arg("maps"), py::arg("choice"))
       .def("map", &Bake::map, py::arg("name"))

@@ -16,29 +16,41 @@ py::array_t<float> take_second(const Image<std::array<float, 5>>& moments) {
   return take_array(std::move(values), {moments.height, moments.width, 5});
 }
 
-py::array_t<float> take_horizons(const std::vector<Map>& horizons, const Surface& surface) {
+/// (maps, height, width).
+py::array_t<float> take_maps(const std::vector<Map>& maps, const Surface& surface) {
   std::vector<float> values;
-  values.reserve(horizons.size() * surface.map.height.size());
-  for (const Map& horizon : horizons)
-    values.insert(values.end(), horizon.values.begin(), horizon.values.end());
+  values.reserve(maps.size() * surface.map.height.size());
+  for (const Map& map : maps) values.insert(values.end(), map.values.begin(), map.values.end());
   return take_array(std::move(values),
-                    {static_cast<py::ssize_t>(horizons.size()), surface.height(), surface.width()});
+                    {static_cast<py::ssize_t>(maps.size()), surface.height(), surface.width()});
 }
 
-/// What is wanted of the sky beside α and A.
+/// What is wanted of the sky.
 struct SkyParts {
-  bool shares = true;
+  bool shares = true;  ///< α and A
   bool moments = false;
   std::vector<double> horizon_rad = {};
+  std::vector<std::string> definitions = {};
+};
+
+/// How far occluders count, how they fade, and what lies below the horizontal: as Python hands it on.
+struct SkyLimits {
+  std::optional<double> reach;
+  std::string falloff;
+  std::string below;
 };
 
 py::dict find_sky(const Surface& surface, const Settings& settings, const SkyParts& parts,
-                  std::optional<double> reach, const std::string& falloff) {
+                  const SkyLimits& limits) {
   Request request = make_request(settings);
   request.wanted.sky = parts.shares;
   request.wanted.moments = {.first = parts.moments, .second = parts.moments};
   request.wanted.horizon_rad = parts.horizon_rad;
-  if (reach) request.wanted.reach = Reach{.distance = *reach, .falloff = falloff_named(falloff)};
+  for (const std::string& name : parts.definitions)
+    request.wanted.definitions.push_back(sky_definition_named(name));
+  if (limits.reach)
+    request.wanted.reach = Reach{.distance = *limits.reach, .falloff = falloff_named(limits.falloff)};
+  request.wanted.below = below_horizontal_named(limits.below);
   PythonWatch watch(settings.progress);
   Results results = watch.run([&](const Watch& told) {
     request.watch = told;
@@ -54,7 +66,8 @@ py::dict find_sky(const Surface& surface, const Settings& settings, const SkyPar
     found["first"] = take_vectors(results.moments.first);
     found["second"] = take_second(results.moments.second);
   }
-  if (!parts.horizon_rad.empty()) found["horizons"] = take_horizons(results.horizons, surface);
+  if (!parts.horizon_rad.empty()) found["horizons"] = take_maps(results.horizons, surface);
+  if (!parts.definitions.empty()) found["definitions"] = take_maps(results.definitions, surface);
   found["evidence"] = evidence_text(results.evidence);
   return found;
 }
@@ -65,17 +78,35 @@ void add_sky(py::module_& module) {
   module.def(
       "sky",
       [](const Surface& surface, const Settings& settings, bool moments, std::optional<double> reach,
-         const std::string& falloff) {
-        return find_sky(surface, settings, {.moments = moments}, reach, falloff);
+         const std::string& falloff, const std::string& below) {
+        return find_sky(surface, settings, {.moments = moments},
+                        {.reach = reach, .falloff = falloff, .below = below});
       },
-      py::arg("surface"), py::arg("settings"), py::arg("moments"), py::arg("reach"), py::arg("falloff"));
+      py::arg("surface"), py::arg("settings"), py::arg("moments"), py::arg("reach"), py::arg("falloff"),
+      py::arg("below"));
   module.def(
       "horizons",
       [](const Surface& surface, const Settings& settings, const std::vector<double>& azimuths,
-         std::optional<double> reach, const std::string& falloff) {
-        return find_sky(surface, settings, {.shares = false, .horizon_rad = azimuths}, reach, falloff);
+         std::optional<double> reach, const std::string& falloff, const std::string& below) {
+        return find_sky(surface, settings, {.shares = false, .horizon_rad = azimuths},
+                        {.reach = reach, .falloff = falloff, .below = below});
       },
-      py::arg("surface"), py::arg("settings"), py::arg("azimuths"), py::arg("reach"), py::arg("falloff"));
+      py::arg("surface"), py::arg("settings"), py::arg("azimuths"), py::arg("reach"), py::arg("falloff"),
+      py::arg("below"));
+  module.def(
+      "definitions",
+      [](const Surface& surface, const Settings& settings, const std::vector<std::string>& names,
+         std::optional<double> reach, const std::string& falloff, const std::string& below) {
+        return find_sky(surface, settings, {.shares = false, .definitions = names},
+                        {.reach = reach, .falloff = falloff, .below = below});
+      },
+      py::arg("surface"), py::arg("settings"), py::arg("names"), py::arg("reach"), py::arg("falloff"),
+      py::arg("below"));
+  module.def("sky_definitions", [] {
+    py::dict definitions;
+    for (const SkyDefinitionFacts& facts : sky_definitions()) definitions[facts.name] = facts.formula;
+    return definitions;
+  });
 }
 
 }  // namespace heightlight

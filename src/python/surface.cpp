@@ -1,3 +1,5 @@
+#include <pybind11/stl.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -36,7 +38,7 @@ Heightmap read_heights(const Array<T>& heights) {
 }
 
 SharedSurface make_surface(const py::array& heights, double texel_x, double texel_y,
-                           const std::string& boundary) {
+                           const std::string& boundary, std::optional<double> curvature) {
   Heightmap map = py::isinstance<py::array_t<float>>(heights) ? read_heights<float>(Array<float>(heights))
                                                               : read_heights<double>(Array<double>(heights));
   map.spacing = {texel_x, texel_y};
@@ -44,6 +46,7 @@ SharedSurface make_surface(const py::array& heights, double texel_x, double texe
     throw UsageError("boundary", boundary, "must be tile or open");
   map.boundary = boundary == "tile" ? Boundary::tile : Boundary::open;
   const py::gil_scoped_release release;
+  if (curvature) map = curve_heights(std::move(map), *curvature);
   return std::make_shared<const Surface>(build_surface(std::move(map)));
 }
 
@@ -60,11 +63,13 @@ py::array_t<float> make_shape(const std::string& shape, int size, std::uint64_t 
 
 void add_surface(py::module_& module) {
   py::class_<Surface, std::shared_ptr<Surface>>(module, "Surface")
-      .def(
-          py::init([](const py::array& heights, double texel_x, double texel_y, const std::string& boundary) {
-            return std::const_pointer_cast<Surface>(make_surface(heights, texel_x, texel_y, boundary));
-          }),
-          py::arg("heights"), py::arg("texel_x"), py::arg("texel_y"), py::arg("boundary"))
+      .def(py::init([](const py::array& heights, double texel_x, double texel_y, const std::string& boundary,
+                       std::optional<double> curvature) {
+             return std::const_pointer_cast<Surface>(
+                 make_surface(heights, texel_x, texel_y, boundary, curvature));
+           }),
+           py::arg("heights"), py::arg("texel_x"), py::arg("texel_y"), py::arg("boundary"),
+           py::arg("curvature"))
       .def_property_readonly("width", &Surface::width)
       .def_property_readonly("height", &Surface::height)
       .def_property_readonly("normal", [](const Surface& surface) { return take_vectors(surface.normal); });

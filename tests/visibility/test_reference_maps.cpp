@@ -9,6 +9,7 @@
 
 #include "base/parallel.h"
 #include "heightlight/files.h"
+#include "heightlight/solve.h"
 #include "shared_data.h"
 #include "test_maps.h"
 #include "visibility/exact_walk.h"
@@ -173,6 +174,19 @@ TEST_CASE("the lakes' sky view factor on the tilted surface matches SAGA's", "[v
                                   [&](double azimuth) { return walker.horizon_rad(row, column, azimuth); });
   });
   CHECK(exact.mean_absolute <= 0.004);  // measured: 0.0028, what that sampling costs
+  Request request;
+  request.wanted = {.sky = true, .below = BelowHorizontal::ground};
+  request.accuracy.error = 0.001;
+  const Results walked = solve(surface, request);
+  // Ours is limited by the tangent plane, theirs is not, so that it is less where a horizon lies below that.
+  const Difference ours = compare(
+      *reference, 6, 1, [&](int row, int column) { return double{walked.sky_view_factor(row, column)}; });
+  CHECK(ours.mean_absolute <= 0.006);
+  request.wanted.below = BelowHorizontal::sky;
+  const Results open = solve(surface, request);
+  const Difference with_sky = compare(
+      *reference, 6, 1, [&](int row, int column) { return double{open.sky_view_factor(row, column)}; });
+  CHECK(with_sky.mean_absolute > 2 * ours.mean_absolute);
 }
 
 // Mean cos h over 16 azimuths k · 22.5°, horizons not below 0: along each azimuth one texel per step of the
@@ -204,6 +218,15 @@ TEST_CASE("Toulouse's mean cosine of horizons within 50 texels matches rastertoo
     return mean_cosine([&](double azimuth) { return walker.horizon_rad(row, column, azimuth); });
   });
   CHECK(exact.mean_absolute <= 0.004);  // measured: 0.0037, what nearest texels cost among walls
+  Request request;
+  request.wanted.definitions = {SkyDefinition::mean_cos_h};
+  request.wanted.reach = Reach{.distance = kReach * 0.5};
+  request.accuracy.error = 0.001;
+  request.accuracy.azimuths = kAzimuths;
+  const Results walked = solve(surface, request);
+  const Difference ours = compare(
+      *reference, kReach, 3, [&](int row, int column) { return double{walked.definitions[0](row, column)}; });
+  CHECK(ours.mean_absolute <= 0.006);
 }
 
 }  // namespace

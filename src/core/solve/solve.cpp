@@ -73,13 +73,16 @@ void check_results(const Task& task, Results& results) {
 /// E₀/π of a sky that has nothing below the horizontal, without a reach. It is kept where it is the sky that
 /// was asked for.
 TexelVector find_light_from_above(const Task& task, Results& results) {
+  // Of the error wanted: bounces pass on what the light errs by, and gathers err, too.
+  constexpr double kShare = 0.6;
   const Request& request = task.request;
   const bool keeps = wants_sky(request.wanted) && !request.wanted.reach;
-  const Request of_sky{.wanted = {.sky = true,
-                                  .moments = keeps ? request.wanted.moments : SkyWanted{},
-                                  .below = BelowHorizontal::ground},
-                       .accuracy = request.accuracy,
-                       .watch = request.watch};
+  Request of_sky{.wanted = {.sky = true,
+                            .moments = keeps ? request.wanted.moments : SkyWanted{},
+                            .below = BelowHorizontal::ground},
+                 .accuracy = request.accuracy,
+                 .watch = request.watch};
+  of_sky.accuracy.error *= kShare;
   Results found;
   found.evidence = results.evidence;
   find_sky({.surface = task.surface, .request = of_sky}, found);

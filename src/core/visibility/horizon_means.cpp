@@ -31,7 +31,7 @@ void walk(const Route& route, MeansWorkspace& work) {
 std::vector<Map> walk_horizon_means(const Surface& surface, const HeightMips& mips,
                                     const WalkOptions& options, const std::vector<HorizonMean>& means,
                                     const std::optional<Reach>& reach, const Watch& watch) {
-  const Route route = plan_route(surface, options, equal_azimuths(options), reach);
+  const Route route = plan_route(surface, options, walked_azimuths(options), reach);
   const std::vector<TileFrame> tiles = all_tiles(surface);
   const RouteStep step{.route = route, .tiles = tiles, .label = "horizons", .watch = watch};
   std::vector<Map> found(means.size(),
@@ -51,7 +51,7 @@ std::vector<HorizonBlock> walk_horizon_blocks(const Surface& surface, const Heig
                                               const WalkOptions& options,
                                               const std::vector<TileFrame>& blocks,
                                               const std::optional<Reach>& reach, const Watch& watch) {
-  const Route route = plan_route(surface, options, equal_azimuths(options), reach);
+  const Route route = plan_route(surface, options, walked_azimuths(options), reach);
   const RouteStep step{.route = route, .tiles = blocks, .label = "trial", .watch = watch};
   std::vector<HorizonBlock> found(blocks.size());
   const auto count = static_cast<float>(options.azimuths);

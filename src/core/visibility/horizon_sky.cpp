@@ -92,7 +92,7 @@ HorizonSky walk_horizon_sky(const Surface& surface, const HeightMips& mips, cons
                             const SkyTask& task, const Watch& watch) {
   assert(plan.full_from <= 0 || plan.walk.azimuths % 4 == 0);
   const WalkOptions& options = plan.walk;
-  const Route route = plan_route(surface, options, equal_azimuths(options), task.reach);
+  const Route route = plan_route(surface, options, walked_azimuths(options), task.reach);
   const std::vector<TileFrame> tiles = all_tiles(surface);
   const RouteStep step{.route = route, .tiles = tiles, .label = "sky", .watch = watch};
   const int width = surface.width();

@@ -1,3 +1,5 @@
+#include <numbers>
+
 #include "heightlight/error.h"
 #include "heightlight/visibility.h"
 
@@ -7,6 +9,21 @@ BelowHorizontal below_horizontal_named(const std::string& name) {
   if (name == "sky") return BelowHorizontal::sky;
   if (name == "ground") return BelowHorizontal::ground;
   throw UsageError("below_horizontal", name, "must be sky or ground");
+}
+
+AzimuthConvention azimuth_convention_named(const std::string& name) {
+  if (name == "math") return AzimuthConvention::math;
+  if (name == "north") return AzimuthConvention::north;
+  throw UsageError("azimuth_convention", name, "must be north or math");
+}
+
+std::vector<double> equal_azimuths(int count, AzimuthConvention convention) {
+  std::vector<double> azimuths;
+  for (int k = 0; k < count; ++k) {
+    const double turned = 2 * std::numbers::pi * k / count;
+    azimuths.push_back(convention == AzimuthConvention::north ? std::numbers::pi / 2 - turned : turned);
+  }
+  return azimuths;
 }
 
 const std::vector<SkyDefinitionFacts>& sky_definitions() {

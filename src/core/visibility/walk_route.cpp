@@ -2,7 +2,7 @@
 
 namespace heightlight {
 
-std::vector<double> equal_azimuths(const WalkOptions& options) {
+std::vector<double> walked_azimuths(const WalkOptions& options) {
   std::vector<double> azimuths;
   for (int k = 0; k < options.azimuths; ++k) azimuths.push_back(azimuth_rad(options, k));
   return azimuths;

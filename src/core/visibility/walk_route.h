@@ -24,7 +24,7 @@ struct Route {
 };
 
 /// φ_k of the options, k = 0 … K − 1.
-std::vector<double> equal_azimuths(const WalkOptions& options);
+std::vector<double> walked_azimuths(const WalkOptions& options);
 
 /// Along such azimuths, rad. Throws UsageError as check_reach does.
 Route plan_route(const Surface& surface, const WalkOptions& options, const std::vector<double>& azimuths,

@@ -58,7 +58,8 @@ std::vector<std::string> channel_names(const BakedTexture& texture) {
   if (count == 1) return {"Y"};
   if (count <= 4) return {kColour.begin(), kColour.begin() + static_cast<std::ptrdiff_t>(count)};
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < count; ++i) names.push_back("c" + std::to_string(100 + i).substr(1));
+  const std::size_t digits = count <= 100 ? 100 : 1000;
+  for (std::size_t i = 0; i < count; ++i) names.push_back("c" + std::to_string(digits + i).substr(1));
   return names;
 }
 
@@ -177,20 +178,31 @@ class StagedBake {
   StagedFolder folder_;
 };
 
+std::vector<MaterialMapName> with_definitions(std::vector<MaterialMapName> maps) {
+  for (const SkyDefinitionFacts& facts : sky_definitions())
+    maps.push_back({static_cast<MaterialMap>(maps.size()), facts.name, facts.formula});
+  return maps;
+}
+
 }  // namespace
 
 const std::vector<MaterialMapName>& material_maps() {
-  static const std::vector<MaterialMapName> kMaps{
-      {MaterialMap::ao, "ao", "ambient occlusion, 1 = open"},
-      {MaterialMap::multibounce, "multibounce", "irradiance of all bounces at the albedo, 1 = unoccluded"},
-      {MaterialMap::bent_normal, "bent-normal", "mean direction of the sky that is seen"},
-      {MaterialMap::bent_cone, "bent-cone", "the same, with the half-angle of a cone in alpha"},
-      {MaterialMap::normal, "normal", "normal of the surface"},
-      {MaterialMap::ao_n, "ao-n", "two channels that give multibounce at any albedo, with a shader"},
-      {MaterialMap::horizon, "horizon", "elevation of the horizon toward some azimuths"},
-      {MaterialMap::sh, "sh", "order-2 spherical harmonics of cosine-weighted visibility"},
-      {MaterialMap::height, "height", "heights from 0 to 1"}};
+  static const std::vector<MaterialMapName> kMaps = with_definitions(
+      {{MaterialMap::ao, "ao", "ambient occlusion, 1 = open"},
+       {MaterialMap::multibounce, "multibounce", "irradiance of all bounces at the albedo, 1 = unoccluded"},
+       {MaterialMap::bent_normal, "bent-normal", "mean direction of the sky that is seen"},
+       {MaterialMap::bent_cone, "bent-cone", "the same, with the half-angle of a cone in alpha"},
+       {MaterialMap::normal, "normal", "normal of the surface"},
+       {MaterialMap::ao_n, "ao-n", "two channels that give multibounce at any albedo, with a shader"},
+       {MaterialMap::horizon, "horizon", "elevation of the horizon toward some azimuths"},
+       {MaterialMap::sh, "sh", "order-2 spherical harmonics of cosine-weighted visibility"},
+       {MaterialMap::height, "height", "heights from 0 to 1"}});
   return kMaps;
+}
+
+std::optional<SkyDefinition> definition_of(MaterialMap map) {
+  if (map < MaterialMap::svf_tilted) return std::nullopt;
+  return static_cast<SkyDefinition>(static_cast<int>(map) - static_cast<int>(MaterialMap::svf_tilted));
 }
 
 const char* to_string(MaterialMap map) { return material_maps()[static_cast<std::size_t>(map)].name; }
@@ -240,9 +252,11 @@ void check_bake_options(const BakeOptions& options) {
     throw UsageError("error", std::to_string(options.error), "must be above 0, and 1 at most");
   }
   if (options.azimuths != 0) check_azimuths(options.azimuths);
-  if (options.horizon_azimuths < 1 || options.horizon_azimuths > 64) {
-    throw UsageError("horizon_azimuths", std::to_string(options.horizon_azimuths), "must be from 1 to 64");
+  if (options.horizon_azimuths < 1 || options.horizon_azimuths > 360) {
+    throw UsageError("horizon_azimuths", std::to_string(options.horizon_azimuths), "must be from 1 to 360");
   }
+  if (options.below == BelowHorizontal::ground && is_wanted(options, MaterialMap::ao_n))
+    throw UsageError("below_horizontal", "ground", "is not for ao-n, whose n is that of a sky all around");
   for (const PackedChannel& channel : options.packed) {
     if (!channel.map || channel.component < component_count(*channel.map, options)) continue;
     throw UsageError(

@@ -25,9 +25,20 @@ enum class MaterialMap {
   normal,       ///< unit normal of the surface
   ao_n,  ///< A, and n of G(A, n, ρ) = A + ρ (1 − A) n/(1 − ρ (1 − n)), which is E/π of any albedo
   horizon,  ///< elevation of the horizon toward N azimuths
-  sh,     ///< (1/π) ∫ V Y_lm cosθ dω, l ≤ 2: E/π under a sky is the dot product with its coefficients
-  height  ///< above the lowest sample, over the relief
+  sh,  ///< (1/π) ∫ V Y_lm cosθ dω, l ≤ 2: E/π under a sky is the dot product with its coefficients
+  height,  ///< above the lowest sample, over the relief
+  // As sky_definitions() has them, in that order; those made of A share the pass of `ao`.
+  svf_tilted,
+  svf_horizontal,
+  svf_solid_angle,
+  openness_positive,
+  openness_negative,
+  mean_cos_h,
+  terrain_view_factor
 };
+
+/// The definition that a map is of, if it is of one.
+std::optional<SkyDefinition> definition_of(MaterialMap map);
 
 /// In the order above: what the command line calls it, and one line that says what it is.
 struct MaterialMapName {
@@ -61,10 +72,13 @@ struct BakeOptions {
   bool uniform_ao = false;            ///< α in place of A
   Albedo albedo{.constant = {0.5}};   ///< of multibounce
   std::optional<Reach> reach =
-      {};                    ///< of ao, bent normals and cones, horizons and sh; not of multibounce, ao_n
+      {};  ///< of ao, bent normals and cones, horizons, sh and definitions; not of multibounce, ao_n
   bool y_down = false;       ///< as Direct3D has it, where OpenGL has y up
   bool bent_length = false;  ///< alpha of bent normals: |(3/2π) ∫ V ω cosθ dω|, 1 = open
-  int horizon_azimuths = 4;  ///< N: toward 2π k/N, counterclockwise from x
+  int horizon_azimuths = 4;  ///< N: toward 2π k/N
+  /// From where these count; default `north` where the map is open, else `math`, toward the y of the files
+  std::optional<AzimuthConvention> azimuth_convention = {};
+  BelowHorizontal below = BelowHorizontal::sky;  ///< of all maps of light; not with ao_n
   TextureFormat format = TextureFormat::png;
   TextureDepth depth = TextureDepth::uint16;
   bool dither = false;           ///< blue noise instead of rounding; 8 bits only

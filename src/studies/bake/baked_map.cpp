@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "bake/bent_cone.h"
+#include "base/digits.h"
 #include "base/texel_algebra.h"
 #include "heightlight/forms.h"
 #include "visibility/sky_harmonics.h"
@@ -71,13 +72,17 @@ std::vector<BakedChannel> totals(const Material& material, std::size_t count) {
   return channels;
 }
 
-std::vector<BakedChannel> horizons(const Material& material, int azimuths) {
+std::vector<BakedChannel> horizons(const Material& material, const BakeOptions& options) {
+  const bool north = azimuth_convention(options, *material.surface) == AzimuthConvention::north;
+  const int azimuths = options.horizon_azimuths;
   std::vector<BakedChannel> channels;
   for (int k = 0; k < azimuths; ++k) {
-    channels.push_back({"toward " + std::to_string(360.0 * k / azimuths) + " degrees", "rad", 0, kHalfPi, 0,
-                        [&material, k](std::size_t i) {
-                          return material.results.horizons[static_cast<std::size_t>(k)].values[i];
-                        }});
+    const std::string degrees = in_digits(360.0 * k / azimuths, 7);
+    channels.push_back(
+        {"toward " + degrees + (north ? " degrees clockwise from north" : " degrees from x to y"), "rad", 0,
+         kHalfPi, 0, [&material, k](std::size_t i) {
+           return material.results.horizons[static_cast<std::size_t>(k)].values[i];
+         }});
   }
   return channels;
 }
@@ -104,6 +109,20 @@ std::vector<BakedChannel> harmonics(const Material& material, bool y_down) {
          }});
   }
   return channels;
+}
+
+/// Missing samples are those of an open, level place.
+BakedChannel of_definition(SkyDefinition definition, const Material& material) {
+  const std::vector<DefinitionCheck>& found = material.results.evidence.definition_checks;
+  const auto at = std::find_if(found.begin(), found.end(),
+                               [&](const DefinitionCheck& check) { return check.definition == definition; });
+  const Map& map = material.results.definitions[static_cast<std::size_t>(at - found.begin())];
+  const SkyDefinitionFacts& facts = facts_of(definition);
+  const bool is_angle = std::string(facts.unit) == "rad";
+  const double open = definition == SkyDefinition::terrain_view_factor ? 0 : is_angle ? kHalfPi : 1;
+  return {facts.name, facts.unit,
+          0,          is_angle ? 2 * kHalfPi : 1,
+          open,       [&map](std::size_t i) { return map.values[i]; }};
 }
 
 BakedChannel height(const Material& material) {
@@ -139,15 +158,38 @@ const char* definition(MaterialMap map, const BakeOptions& options) {
       return kStoredPairMeaning;
     case MaterialMap::horizon:
       return "elevation of the horizon above the horizontal (at least the tangent plane's), toward azimuths "
-             "that count from x toward y";
+             "that count as the channels say";
     case MaterialMap::sh:
       return "(1/pi) int V Ylm cos(theta) dw over the orthonormal real spherical harmonics (no "
              "Condon-Shortley "
              "phase, pole z): E/pi under a sky is the dot product with the sky's coefficients";
     case MaterialMap::height:
       return "height above the lowest sample, over the relief";
+    default:
+      return facts_of(*definition_of(map)).formula;
   }
-  return "";
+}
+
+/// Whether a map is of what the sky sends, and so of what lies below the horizontal.
+bool is_lit(MaterialMap map) {
+  switch (map) {
+    case MaterialMap::normal:
+    case MaterialMap::height:
+    case MaterialMap::horizon:
+      return false;
+    default:
+      return !definition_of(map) || map == MaterialMap::svf_tilted || map == MaterialMap::terrain_view_factor;
+  }
+}
+
+/// What a file tells of its map.
+std::string file_text(MaterialMap map, const BakeOptions& options) {
+  std::string text = definition(map, options);
+  if (definition_of(map)) text.insert(0, std::string(to_string(map)) + ": ");
+  if (definition_of(map) && !is_lit(map))
+    text += "; h is the elevation of the horizon, means are over azimuths";
+  const bool dark = is_lit(map) && options.below == BelowHorizontal::ground;
+  return dark ? text + "; nothing shines below the horizontal" : text;
 }
 
 /// A value for every texel, of no map.
@@ -183,7 +225,7 @@ void add_textures(MaterialMap map, const Material& material, const BakeOptions& 
   const std::vector<BakedChannel> channels = baked_channels(map, material, options);
   const std::vector<std::string> suffixes = suffixes_of(map, options);
   if (map == MaterialMap::bent_cone) {
-    textures.push_back({suffixes[0], definition(map, options), {channels.begin(), channels.begin() + 4}});
+    textures.push_back({suffixes[0], file_text(map, options), {channels.begin(), channels.begin() + 4}});
     textures.push_back({suffixes[1],
                         "bent cone, half-angle by spread: the cone about the normal whose "
                         "cosine-weighted directions have a mean of the same length",
@@ -193,7 +235,7 @@ void add_textures(MaterialMap map, const Material& material, const BakeOptions& 
   const auto parts = split(static_cast<int>(channels.size()), options.format);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     textures.push_back({suffixes[i],
-                        definition(map, options),
+                        file_text(map, options),
                         {channels.begin() + parts[i].first, channels.begin() + parts[i].second}});
     if (options.format == TextureFormat::png && textures.back().channels.size() == 2) {
       textures.back().channels.push_back(constant(0));
@@ -222,8 +264,9 @@ int component_count(MaterialMap map, const BakeOptions& options) {
       return options.horizon_azimuths;
     case MaterialMap::sh:
       return 9;
+    default:
+      return 1;  // definitions
   }
-  return 0;
 }
 
 std::vector<BakedChannel> baked_channels(MaterialMap map, const Material& material,
@@ -251,13 +294,14 @@ std::vector<BakedChannel> baked_channels(MaterialMap map, const Material& materi
       return {share("sky view factor A", material.results.whole_sky_view_factor),
               share("n", material.results.seen)};
     case MaterialMap::horizon:
-      return horizons(material, options.horizon_azimuths);
+      return horizons(material, options);
     case MaterialMap::sh:
       return harmonics(material, options.y_down);
     case MaterialMap::height:
       return {height(material)};
+    default:
+      return {of_definition(*definition_of(map), material)};
   }
-  return channels;
 }
 
 std::vector<BakedTexture> baked_textures(const Material& material, const BakeOptions& options) {

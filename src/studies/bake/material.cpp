@@ -1,23 +1,27 @@
 #include "bake/material.h"
 
 #include <algorithm>
-#include <numbers>
 
 #include "base/stopwatch.h"
 
 namespace heightlight {
 namespace {
 
-/// Azimuths of a horizon map, rad; they count from x toward the y of the files.
-std::vector<double> horizon_azimuths(const BakeOptions& options) {
-  std::vector<double> azimuths;
-  for (int k = 0; k < options.horizon_azimuths; ++k) {
-    azimuths.push_back((options.y_down ? -2 : 2) * std::numbers::pi * k / options.horizon_azimuths);
+MaterialMap map_of(SkyDefinition definition) {
+  return static_cast<MaterialMap>(static_cast<int>(MaterialMap::svf_tilted) + static_cast<int>(definition));
+}
+
+/// Azimuths of a horizon map, rad, counterclockwise from x. Those from x count toward the y of the files.
+std::vector<double> horizon_azimuths(const BakeOptions& options, const Surface& surface) {
+  const AzimuthConvention convention = azimuth_convention(options, surface);
+  std::vector<double> azimuths = equal_azimuths(options.horizon_azimuths, convention);
+  if (options.y_down && convention == AzimuthConvention::math) {
+    for (double& azimuth : azimuths) azimuth = -azimuth;
   }
   return azimuths;
 }
 
-Request make_request(const BakeOptions& options) {
+Request make_request(const BakeOptions& options, const Surface& surface) {
   const auto has = [&](MaterialMap map) { return is_wanted(options, map); };
   Request request;
   Wanted& wanted = request.wanted;
@@ -26,7 +30,11 @@ Request make_request(const BakeOptions& options) {
       wanted.moments.second || has(MaterialMap::bent_normal) || has(MaterialMap::bent_cone);
   wanted.sky = wanted.moments.first || has(MaterialMap::ao);
   wanted.reach = options.reach;
-  if (has(MaterialMap::horizon)) wanted.horizon_rad = horizon_azimuths(options);
+  wanted.below = options.below;
+  for (const SkyDefinitionFacts& facts : sky_definitions()) {
+    if (has(map_of(facts.definition))) wanted.definitions.push_back(facts.definition);
+  }
+  if (has(MaterialMap::horizon)) wanted.horizon_rad = horizon_azimuths(options, surface);
   if (has(MaterialMap::multibounce)) wanted.totals.push_back(options.albedo);
   wanted.seen = has(MaterialMap::ao_n);
   if (wanted.seen) {
@@ -53,6 +61,11 @@ std::vector<ModelError> judge_model(const Results& results) {
 
 }  // namespace
 
+AzimuthConvention azimuth_convention(const BakeOptions& options, const Surface& surface) {
+  return options.azimuth_convention.value_or(surface.tiles() ? AzimuthConvention::math
+                                                             : AzimuthConvention::north);
+}
+
 bool is_wanted(const BakeOptions& options, MaterialMap map) {
   return std::find(options.maps.begin(), options.maps.end(), map) != options.maps.end() ||
          std::any_of(options.packed.begin(), options.packed.end(),
@@ -60,7 +73,7 @@ bool is_wanted(const BakeOptions& options, MaterialMap map) {
 }
 
 Material find_material(const Surface& surface, const BakeOptions& options) {
-  const Request request = make_request(options);
+  const Request request = make_request(options, surface);
   Material material;
   material.surface = &surface;
   material.results = solve(surface, request);

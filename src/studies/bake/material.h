@@ -17,6 +17,9 @@ struct Material {
   std::vector<ModelError> model_errors;
 };
 
+/// From where the azimuths of horizons count.
+AzimuthConvention azimuth_convention(const BakeOptions& options, const Surface& surface);
+
 /// Whether a map is to be written, alone or packed.
 bool is_wanted(const BakeOptions& options, MaterialMap map);
 

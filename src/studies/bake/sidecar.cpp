@@ -68,7 +68,9 @@ Json describe_textures(const BakeOptions& options, const std::vector<BakedTextur
   return list;
 }
 
-Json describe_conventions(const BakeOptions& options) {
+Json describe_conventions(const BakeOptions& options, const Surface& surface) {
+  const bool north = azimuth_convention(options, surface) == AzimuthConvention::north;
+  const bool ground = options.below == BelowHorizontal::ground;
   return {{"encoding", "linear"},
           {"depth", to_string(options.depth)},
           {"levels", largest_level(options.depth) == 0 ? Json(nullptr)
@@ -76,6 +78,8 @@ Json describe_conventions(const BakeOptions& options) {
                                                        : Json("rounded to the nearest")},
           {"normal_y", options.y_down ? "directx (y down the picture)" : "opengl (y up the picture)"},
           {"axes", "x right, z out of the picture"},
+          {"azimuths", north ? "clockwise from north, up the picture" : "from x toward y"},
+          {"below_horizontal", ground ? "ground: nothing there shines" : "sky, where no surface is"},
           {"rows", "from the top"}};
 }
 
@@ -83,7 +87,9 @@ Json describe_reach(const BakeOptions& options) {
   if (!options.reach) return "unlimited";
   return {{"max_distance", options.reach->distance},
           {"falloff", to_string(options.reach->falloff)},
-          {"applies_to", "ao, bent-normal, bent-cone, sh; horizon (without falloff)"},
+          {"applies_to",
+           "ao, bent-normal, bent-cone, sh, svf-tilted, terrain-view-factor; horizon and all other "
+           "definitions (without falloff)"},
           {"not_to", "multibounce, ao-n: bounces come from everywhere"}};
 }
 
@@ -98,6 +104,10 @@ Json describe_errors(const BakeOptions& options, const Material& material) {
       json["bent_normal_rmse_degrees"] = *check.bent_normal_rad * 180 / std::numbers::pi;
     }
     if (check.harmonics) json["sh_coefficient_rmse"] = *check.harmonics;
+  }
+  for (const DefinitionCheck& check : evidence.definition_checks) {
+    const SkyDefinitionFacts& facts = facts_of(check.definition);
+    if (check.rmse) json[std::string(facts.name) + "_rmse"] = *check.rmse;
   }
   if (is_wanted(options, MaterialMap::multibounce) && !evidence.total_checks.empty()) {
     json["multibounce_rmse"] = evidence.total_checks[0].total_rmse;
@@ -130,7 +140,7 @@ void write_sidecar(const std::filesystem::path& path, const BakeOptions& options
   json["map"] = describe_map(facts.source, facts.facts.sha256, *material.surface);
   json["files"] = describe_textures(options, textures, facts.files);
   for (const Json& entry : facts.former) json["files"].push_back(entry);
-  json["conventions"] = describe_conventions(options);
+  json["conventions"] = describe_conventions(options, *material.surface);
   json["reach"] = describe_reach(options);
   if (is_wanted(options, MaterialMap::multibounce)) {
     json["albedo"] = describe_albedo(options.albedo);

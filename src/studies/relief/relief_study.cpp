@@ -89,6 +89,7 @@ std::vector<ReliefCurves> study_reliefs(const Heightmap& map, const ReliefStudy&
     Heightmap scaled = small;
     const double scale = tall > 0 ? share * extent / tall : 1;
     for (float& height : scaled.height.values) height = static_cast<float>(height * scale);
+    scaled.curvature *= scale;
     results.push_back({.relief_share = share,
                        .curves = simulate_curves(std::move(scaled), study, watch),
                        .width = small.height.width,
