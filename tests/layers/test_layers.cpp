@@ -69,6 +69,7 @@ const std::map<std::string, std::string> kLayerOfPublicHeader = {
     {"solve.h", "solve"},
     {"screenspace.h", "screenspace"},
     {"sky_light.h", "skylight"},
+    {"sun.h", "skylight"},
     {"files.h", "files"},
 };
 
