@@ -5,7 +5,7 @@ include(CMakePackageConfigHelpers)
 set(HEIGHTLIGHT_CONFIG_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/heightlight)
 set(HEIGHTLIGHT_CORE_HEADERS
     closed_forms.h curves.h error.h evidence.h forms.h heightmap.h image.h screenspace.h sky_light.h solve.h sun.h surface.h synth.h
-    transport.h visibility.h watch.h)
+    terrain_forms.h transport.h visibility.h watch.h)
 list(TRANSFORM HEIGHTLIGHT_CORE_HEADERS PREPEND include/heightlight/)
 
 install(TARGETS heightlight_core EXPORT heightlight ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})

@@ -71,6 +71,7 @@ const std::map<std::string, std::string> kLayerOfPublicHeader = {
     {"sky_light.h", "skylight"},
     {"sun.h", "skylight"},
     {"files.h", "files"},
+    {"terrain_forms.h", "forms"},
 };
 
 const Names kCommands = {"fit", "comparison", "bake", "plot", "cli"};
