@@ -9,6 +9,7 @@
 #include "cli/commands.h"
 #include "cli/compare_json.h"
 #include "cli/compare_pictures.h"
+#include "cli/compare_terrain.h"
 #include "cli/map_options.h"
 #include "cli/name_errors.h"
 #include "cli/plots.h"
@@ -36,6 +37,7 @@ struct CompareOptions {
   UserFormOptions forms;
   std::filesystem::path sky;
   int azimuths = 128;
+  TerrainOptions terrain;
 };
 
 /// Albedos under the names that the table's quantities have: numbers one by one, or what an image holds.
@@ -185,19 +187,25 @@ void add_compare_command(CLI::App& app) {
   auto options = std::make_shared<CompareOptions>();
   add_map_options(*command, options->map);
   command->add_option("-o,--output", options->folder, "folder for the results")->type_name("DIR")->required();
-  command
-      ->add_option(
-          "--albedo", options->albedo,
-          "of the totals: one to eight numbers, a colour, or an image of the map's size (0.2,0.5,0.8)")
-      ->type_name("R,R…|#RRGGBB|FILE");
+  CLI::Option* terrain = add_terrain_options(*command, options->terrain);
+  CLI::Option* albedo =
+      command
+          ->add_option(
+              "--albedo", options->albedo,
+              "of the totals: one to eight numbers, a colour, or an image of the map's size (0.2,0.5,0.8)")
+          ->type_name("R,R…|#RRGGBB|FILE");
   command
       ->add_option("--sky", options->sky,
                    "image of radiance, latitude by longitude, whose direct light is compared (one of two "
                    "tones); its middle looks to the map's top")
-      ->type_name("FILE.hdr|exr");
-  command->add_option("--azimuths", options->azimuths,
-                      "of the reference, an even number (128); its error stands in the report");
+      ->type_name("FILE.hdr|exr")
+      ->excludes(terrain);
+  command
+      ->add_option("--azimuths", options->azimuths,
+                   "of the reference, an even number (128); its error stands in the report")
+      ->excludes(terrain);
   add_user_form_options(*command, options->forms);
+  for (const char* own : {"--form", "--forms"}) command->get_option(own)->excludes(terrain);
   add_run_options(*command, options->run);
   command->footer(
       "Writes report.md, which begins with the answer: what each closed form errs by on exact AO and on "
@@ -209,8 +217,16 @@ void add_compare_command(CLI::App& app) {
       "Examples:\n"
       "  heightlight compare brick.png -o brick\n"
       "  heightlight compare dem.tif -o dem --texel 50 --boundary open --albedo 0.3\n"
+      "  heightlight compare dem.tif -o dem --texel 50 --boundary open --terrain --sun 135,30\n"
       "  heightlight compare brick.png -o brick --form 'mine = A/(1 - rho*(1 - A)^k)'");
-  command->callback([options] { compare(*options); });
+  command->callback([options, albedo] {
+    if (!options->terrain.wanted) return compare(*options);
+    compare_terrain({.map = options->map,
+                     .run = options->run,
+                     .folder = options->folder,
+                     .albedo = albedo->empty() ? "" : options->albedo,
+                     .sun = options->terrain.sun});
+  });
 }
 
 }  // namespace heightlight

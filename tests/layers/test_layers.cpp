@@ -42,9 +42,11 @@ const std::map<std::string, Names> kMayInclude = {
     {"user_form", with(kCore, {"files", "expression"})},
     {"fit", with(kCore, {"files", "expression", "user_form"})},
     {"comparison", with(kCore, {"files", "expression", "user_form", "fit"})},
+    {"terrain", with(kCore, {"files", "expression", "user_form", "fit", "comparison"})},
     {"bake", with(kCore, {"files"})},
     {"plot", with(kCore, {"files", "expression", "user_form", "relief", "fit", "comparison"})},
-    {"cli", with(kCore, {"files", "expression", "user_form", "relief", "fit", "comparison", "bake", "plot"})},
+    {"cli", with(kCore, {"files", "expression", "user_form", "relief", "fit", "comparison", "terrain", "bake",
+                         "plot"})},
     {"python", with(kCore, {"files", "expression", "user_form", "fit", "comparison", "bake"})},
 };
 
@@ -74,7 +76,7 @@ const std::map<std::string, std::string> kLayerOfPublicHeader = {
     {"terrain_forms.h", "forms"},
 };
 
-const Names kCommands = {"fit", "comparison", "bake", "plot", "cli"};
+const Names kCommands = {"fit", "comparison", "terrain", "bake", "plot", "cli"};
 
 /// Libraries, by how their headers' names begin, and the layers that include them. No public header does.
 const std::map<std::string, Names> kUsers = {
