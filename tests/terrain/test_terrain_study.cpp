@@ -134,9 +134,9 @@ TEST_CASE("a study compares methods, and its errors do not depend on threads", "
   }
   for (const SkyDefinitionText& text : sky_definitions()) {
     INFO(text.name);
-    CHECK(rmse("exact horizons", 64, text.definition) < 0.2 * rmse("exact horizons", 8, text.definition));
-    CHECK(rmse("exact horizons", 64, text.definition) <
-          0.2 * rmse("nearest cell (way along the ray)", 64, text.definition));
+    CHECK(rmse(kExactHorizonMethod, 64, text.definition) <
+          0.2 * rmse(kExactHorizonMethod, 8, text.definition));
+    CHECK(rmse(kExactHorizonMethod, 64, text.definition) < 0.2 * rmse(kRayMarchMethod, 64, text.definition));
   }
   const ScratchFolder folder;
   write_terrain_forms_csv(folder / "forms.csv", study.trial.rows);

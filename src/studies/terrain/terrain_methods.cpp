@@ -13,7 +13,7 @@
 namespace heightlight {
 namespace {
 
-constexpr int kAzimuths[] = {8, 16, 32, 64};
+constexpr int kTriedAzimuths[] = {8, 16, 32, 64};
 constexpr int kReaches[] = {10, 50, 100, 1000, 0};  // cells; 0: all
 constexpr double kErrors[] = {0.01, 0.003, 0.001};
 
@@ -41,17 +41,17 @@ std::vector<FoundSky> at_receivers(std::vector<DefinitionMap> maps, const Terrai
 void add_marches(const Surface& surface, const TerrainTruth& truth, std::vector<TerrainMethod>& methods) {
   for (const CellDistance distance : {CellDistance::along_ray, CellDistance::to_cell}) {
     const bool is_along = distance == CellDistance::along_ray;
-    for (const int azimuths : kAzimuths) {
+    for (const int azimuths : kTriedAzimuths) {
       for (const int reach : kReaches) {
         if (reach >= std::max(surface.width(), surface.height())) continue;
-        methods.push_back(
-            {.name = is_along ? "nearest cell (way along the ray)" : "nearest cell (distance of the cell)",
-             .azimuths = azimuths,
-             .reach = reach,
-             .run = [&surface, &truth, azimuths, reach, distance] {
-               const MarchOptions march{.reach = reach, .distance = distance};
-               return at_receivers(march_definitions(surface, azimuths, march, all_definitions()), truth);
-             }});
+        methods.push_back({.name = is_along ? kRayMarchMethod : kCellMarchMethod,
+                           .azimuths = azimuths,
+                           .reach = reach,
+                           .run = [&surface, &truth, azimuths, reach, distance] {
+                             const MarchOptions march{.reach = reach, .distance = distance};
+                             return at_receivers(
+                                 march_definitions(surface, azimuths, march, all_definitions()), truth);
+                           }});
       }
     }
   }
@@ -126,20 +126,20 @@ std::vector<TerrainMethod> terrain_methods(const Surface& surface, const Terrain
   std::vector<TerrainMethod> methods;
   add_marches(surface, truth, methods);
   const Watch quiet{.tell = {}, .stopped = watch.stopped};
-  for (const int azimuths : kAzimuths) {
-    methods.push_back(
-        {.name = "horizon walk", .azimuths = azimuths, .run = [&surface, &truth, azimuths, quiet] {
-           return at_receivers(walk_definitions(surface, azimuths, all_definitions(), quiet), truth);
-         }});
+  for (const int azimuths : kTriedAzimuths) {
+    methods.push_back({.name = kWalkMethod, .azimuths = azimuths, .run = [&surface, &truth, azimuths, quiet] {
+                         return at_receivers(walk_definitions(surface, azimuths, all_definitions(), quiet),
+                                             truth);
+                       }});
   }
-  for (const int azimuths : kAzimuths) {
+  for (const int azimuths : kTriedAzimuths) {
     methods.push_back(
-        {.name = "exact horizons", .azimuths = azimuths, .run = [&surface, &truth, azimuths, quiet] {
+        {.name = kExactHorizonMethod, .azimuths = azimuths, .run = [&surface, &truth, azimuths, quiet] {
            return walk_exactly(surface, truth, azimuths, quiet);
          }});
   }
   for (const double error : kErrors) {
-    methods.push_back({.name = "planned walk", .error = error, .run = [&surface, &truth, error, quiet] {
+    methods.push_back({.name = kPlannedMethod, .error = error, .run = [&surface, &truth, error, quiet] {
                          return solve_sky(surface, truth, error, quiet);
                        }});
   }

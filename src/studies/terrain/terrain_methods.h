@@ -18,6 +18,13 @@ struct FoundSky {
   Cost cost;                   ///< of the whole map, of that definition alone
 };
 
+/// Names of methods.
+inline constexpr const char* kRayMarchMethod = "nearest cell (way along the ray)";
+inline constexpr const char* kCellMarchMethod = "nearest cell (distance of the cell)";
+inline constexpr const char* kWalkMethod = "horizon walk";
+inline constexpr const char* kExactHorizonMethod = "exact horizons";
+inline constexpr const char* kPlannedMethod = "planned walk";
+
 /// A method with its parameters.
 struct TerrainMethod {
   std::string name;

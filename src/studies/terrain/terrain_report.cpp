@@ -138,6 +138,57 @@ void write_windows(std::FILE* file, const TerrainStudy& study) {
   std::fputc('\n', file);
 }
 
+/// Errors under a light at the last albedo: the literature's average albedo, and the form that errs least.
+void write_best_form(std::FILE* file, const TerrainStudy& study, const std::string& light, double window) {
+  const double albedo = study.options.albedos.back();
+  const auto row_of = [&](const std::string& form) {
+    return find_form_row(study, {.light = light, .albedo = albedo, .form = form, .window = window});
+  };
+  const TerrainFormRow* best = nullptr;
+  for (const TerrainForm& form : terrain_forms()) {
+    const TerrainFormRow* row = row_of(form.name);
+    if (row && (!best || row->error.rmse < best->error.rmse)) best = row;
+  }
+  const TerrainFormRow* average = row_of("average_albedo");
+  if (!best || !average) return;
+  fmt::print(
+      file,
+      "* **What do formulas make of what terrain reflects under the {}?** At albedo {:g} it is {:.4f} in "
+      "the mean. {} errs least, RMSE {:.4f}; Dozier and Frew's average albedo by {:.4f} with C\\_t, "
+      "by {:.4f} with 1 − A.\n",
+      light, albedo, best->reflected, as_markdown(best->form), best->error.rmse, average->error.rmse,
+      row_of("average_albedo_seen")->error.rmse);
+}
+
+const TerrainMethodRow* find_method_row(const TerrainStudy& study, const std::string& method, int azimuths,
+                                        int reach) {
+  for (const TerrainMethodRow& row : study.methods) {
+    if (row.method == method && row.azimuths == azimuths && row.reach == reach &&
+        row.definition == SkyDefinition::svf_tilted)
+      return &row;
+  }
+  return nullptr;
+}
+
+/// Of the tilted sky view factor, in the usual way and by as many walks.
+void write_usual_cost(std::FILE* file, const TerrainStudy& study) {
+  constexpr int kAzimuths = 16;
+  constexpr int kReach = 100;
+  const TerrainMethodRow* ours = find_method_row(study, kWalkMethod, kAzimuths, 0);
+  if (!ours) return;
+  fmt::print(file, "* **What do {} azimuths and {} cells of reach cost?** Of {}:", kAzimuths, kReach,
+             as_markdown(name_of(ours->definition)));
+  for (const char* method : {kRayMarchMethod, kCellMarchMethod}) {
+    const TerrainMethodRow* row = find_method_row(study, method, kAzimuths, kReach);
+    if (!row) row = find_method_row(study, method, kAzimuths, 0);  // no ray is longer
+    if (row)
+      fmt::print(file, " {} RMSE {:.4f}, bias {:+.4f}, {:.2g} core-seconds per megatexel;", row->method,
+                 row->error.rmse, row->error.bias, row->per_megatexel);
+  }
+  fmt::print(file, " {} horizon walks RMSE {:.4f}, bias {:+.4f}, {:.2g}.\n", kAzimuths, ours->error.rmse,
+             ours->error.bias, ours->per_megatexel);
+}
+
 void write_methods(std::FILE* file, const TerrainStudy& study) {
   fmt::print(
       file,
@@ -164,12 +215,15 @@ void write_methods(std::FILE* file, const TerrainStudy& study) {
 void write_terrain_report(const std::filesystem::path& path, const TerrainReportInput& input) {
   write_file(path, [&](std::FILE* file) {
     const TerrainStudy& study = input.study;
+    const std::vector<double> windows = windows_of(study);
+    const double window = windows[windows.size() / 2];
     write_map(file, input);
+    for (const TrialLight& light : study.trial.lights) write_best_form(file, study, light.name, window);
+    write_usual_cost(file, study);
+    std::fputc('\n', file);
     write_truth(file, study);
     write_formulas(file);
-    const std::vector<double> windows = windows_of(study);
-    for (const TrialLight& light : study.trial.lights)
-      write_forms(file, study, light.name, windows[windows.size() / 2]);
+    for (const TrialLight& light : study.trial.lights) write_forms(file, study, light.name, window);
     write_windows(file, study);
     write_methods(file, study);
   });
