@@ -214,6 +214,7 @@ void add_compare_command(CLI::App& app) {
       "sky_light.png,\n"
       "directions.png, error_NN_METHOD.png; compare.csv, compare.json; forms.glsl and .hlsl where --form "
       "gives one.\n"
+      "With --terrain: terrain.md, terrain_forms.csv, terrain_methods (.csv, .svg, .png), terrain.json.\n"
       "Examples:\n"
       "  heightlight compare brick.png -o brick\n"
       "  heightlight compare dem.tif -o dem --texel 50 --boundary open --albedo 0.3\n"

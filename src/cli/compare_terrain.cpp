@@ -53,7 +53,7 @@ TrialOptions trial_options(const TerrainRun& run, const Surface& surface) {
     if (!albedos) throw UsageError("albedo", run.albedo, "terrain is tried at numbers, one by one");
     options.albedos = *albedos;
   }
-  const std::uint64_t held = surface.map.height.size() * trial_bytes_per_texel(options.albedos.size());
+  const std::uint64_t held = surface.map.height.size() * study_bytes_per_texel(options.albedos.size());
   if (held >= run.run.memory)
     throw MemoryError("the study needs " + format_byte_size(held) +
                       " beside the light transport, more than the " + format_byte_size(run.run.memory) +

@@ -35,6 +35,16 @@ TEST_CASE("compare --terrain writes its tables, report, plots and evidence", "[c
   CHECK_THAT(report, Contains("albedo 0.4"));
 }
 
+TEST_CASE("compare --terrain says how much memory it needs", "[cli][compare][terrain]") {
+  const ScratchFolder folder;
+  REQUIRE(run_command("synth fbm -o map.png --size 64", folder).exit_code == 0);
+  const CommandResult run =
+      run_command("compare map.png -o out --boundary open --terrain --memory 1M", folder);
+  CHECK(run.exit_code == 1);
+  CHECK_THAT(run.error, Contains("map.png: the study needs") && Contains("1.0 MiB allowed (--memory)"));
+  CHECK_FALSE(std::filesystem::exists(folder / "out"));
+}
+
 TEST_CASE("compare --terrain refuses what it cannot try", "[cli][compare][terrain]") {
   const ScratchFolder folder;
   REQUIRE(run_command("synth fbm -o map.png --size 16", folder).exit_code == 0);

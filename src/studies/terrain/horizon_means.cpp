@@ -63,6 +63,11 @@ std::vector<DefinitionMap> sum_definitions(const Surface& surface, const std::ve
   return found;
 }
 
+std::uint64_t definition_bytes_per_texel(std::size_t definitions) {
+  constexpr std::uint64_t kMap = sizeof(Map::value_type);
+  return kAtOnce * kMap + definitions * (sizeof(SkySum) + kMap);
+}
+
 std::vector<DefinitionMap> march_definitions(const Surface& surface, int azimuths, MarchOptions march,
                                              const std::vector<SkyDefinition>& definitions) {
   std::vector<double> azimuths_rad;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -25,6 +26,9 @@ using HorizonFinder = std::function<std::vector<Map>(const std::vector<double>& 
 std::vector<DefinitionMap> sum_definitions(const Surface& surface, const std::vector<double>& azimuths_rad,
                                            const std::vector<SkyDefinition>& definitions,
                                            const HorizonFinder& find_horizons);
+
+/// Bytes per texel that finding so many definitions at once takes, the maps that are found included.
+std::uint64_t definition_bytes_per_texel(std::size_t definitions);
 
 /// By the usual algorithm, toward 2πk/K from the map's top clockwise. The azimuth of `march` is not used.
 std::vector<DefinitionMap> march_definitions(const Surface& surface, int azimuths, MarchOptions march,

@@ -160,33 +160,29 @@ void write_best_form(std::FILE* file, const TerrainStudy& study, const std::stri
       row_of("average_albedo_seen")->error.rmse);
 }
 
-const TerrainMethodRow* find_method_row(const TerrainStudy& study, const std::string& method, int azimuths,
-                                        int reach) {
-  for (const TerrainMethodRow& row : study.methods) {
-    if (row.method == method && row.azimuths == azimuths && row.reach == reach &&
-        row.definition == SkyDefinition::svf_tilted)
-      return &row;
-  }
-  return nullptr;
+/// What of a method's row answers.
+std::string cost_and_error(const TerrainMethodRow& row) {
+  return fmt::format("RMSE {:.4f}, bias {:+.4f}, {:.2g} core-seconds per megatexel", row.error.rmse,
+                     row.error.bias, row.per_megatexel);
 }
 
-/// Of the tilted sky view factor, in the usual way and by as many walks.
-void write_usual_cost(std::FILE* file, const TerrainStudy& study) {
-  constexpr int kAzimuths = 16;
-  constexpr int kReach = 100;
-  const TerrainMethodRow* ours = find_method_row(study, kWalkMethod, kAzimuths, 0);
-  if (!ours) return;
-  fmt::print(file, "* **What do {} azimuths and {} cells of reach cost?** Of {}:", kAzimuths, kReach,
-             as_markdown(name_of(ours->definition)));
-  for (const char* method : {kRayMarchMethod, kCellMarchMethod}) {
-    const TerrainMethodRow* row = find_method_row(study, method, kAzimuths, kReach);
-    if (!row) row = find_method_row(study, method, kAzimuths, 0);  // no ray is longer
-    if (row)
-      fmt::print(file, " {} RMSE {:.4f}, bias {:+.4f}, {:.2g} core-seconds per megatexel;", row->method,
-                 row->error.rmse, row->error.bias, row->per_megatexel);
+/// Of one definition in the usual way, and by as many walks; of A also by a walk planned for an error.
+void write_usual_cost(std::FILE* file, const TerrainStudy& study, SkyDefinition definition) {
+  constexpr int kUsualAzimuths = 16;
+  constexpr int kUsualReach = 100;
+  fmt::print(file, "* **What do {} azimuths and {} cells of reach cost {}?**", kUsualAzimuths, kUsualReach,
+             as_markdown(name_of(definition)));
+  const TerrainMethodRow* planned = nullptr;
+  for (const TerrainMethodRow& row : study.methods) {
+    if (row.definition != definition) continue;
+    if (row.error_wanted > 0) planned = &row;  // the last is for the smallest error
+    const bool is_march = row.method == kRayMarchMethod || row.method == kCellMarchMethod;
+    const bool is_usual = row.azimuths == kUsualAzimuths && row.reach == (is_march ? kUsualReach : 0);
+    if (is_usual) fmt::print(file, " {}: {}.", row.method, cost_and_error(row));
   }
-  fmt::print(file, " {} horizon walks RMSE {:.4f}, bias {:+.4f}, {:.2g}.\n", kAzimuths, ours->error.rmse,
-             ours->error.bias, ours->per_megatexel);
+  if (planned)
+    fmt::print(file, " {}, {}: {}.", planned->method, parameters_of(*planned), cost_and_error(*planned));
+  std::fputc('\n', file);
 }
 
 void write_methods(std::FILE* file, const TerrainStudy& study) {
@@ -219,7 +215,8 @@ void write_terrain_report(const std::filesystem::path& path, const TerrainReport
     const double window = windows[windows.size() / 2];
     write_map(file, input);
     for (const TrialLight& light : study.trial.lights) write_best_form(file, study, light.name, window);
-    write_usual_cost(file, study);
+    write_usual_cost(file, study, SkyDefinition::sky_view_factor);
+    write_usual_cost(file, study, SkyDefinition::svf_tilted);
     std::fputc('\n', file);
     write_truth(file, study);
     write_formulas(file);

@@ -1,8 +1,13 @@
 #include "terrain/terrain_study.h"
 
 #include "heightlight/error.h"
+#include "terrain/horizon_means.h"
 
 namespace heightlight {
+
+std::uint64_t study_bytes_per_texel(std::size_t albedos) {
+  return trial_bytes_per_texel(albedos) + definition_bytes_per_texel(sky_definitions().size());
+}
 
 TerrainStudy study_terrain(const Surface& surface, TrialOptions options) {
   if (surface.tiles())
