@@ -49,6 +49,16 @@ struct EnergyCheck {
   double spectral_radius = 0;
 };
 
+/// Where the light of one total went, summed over the surface's area. What is received is absorbed by texels,
+/// (1 − ρ) E, or escapes to the sky, A ρ E. That the three agree is reciprocity, which no gather knows of:
+/// form factors and sky view factors are found from the receivers' side alone.
+struct EnergyAudit {
+  double received = 0;   ///< mean E₀/π over the surface's area
+  double absorbed = 0;   ///< share of what is received
+  double escaped = 0;    ///< likewise
+  double imbalance = 0;  ///< 1 less both
+};
+
 /// The mean sky view factor of what texels see, weighted by how much of it they see.
 struct SeenSky {
   double expected = 1;  ///< by reciprocity, from the sky view factor and the normals alone
@@ -85,6 +95,7 @@ struct Evidence {
   std::vector<DefinitionCheck> definition_checks;  ///< per definition asked for
   std::vector<HorizonCheck>
       total_checks;                 ///< per albedo, of A and of the total in the channel that errs most
+  std::vector<EnergyAudit> audits;  ///< per channel of each total, in their order
   std::vector<double> bounce_rmse;  ///< of E₀/π … E_K/π, where single bounces were asked for
   bool refined = false;  ///< the first check found totals that miss the error: these were found once more
 

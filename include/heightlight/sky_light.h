@@ -1,8 +1,11 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "heightlight/image.h"
+#include "heightlight/surface.h"
+#include "heightlight/watch.h"
 
 // Light of a sky that is not the same all over: radiance by direction.
 //
@@ -24,6 +27,34 @@ void check_sky_light(const SkyLight& sky);
 
 /// Warm (1, 0.6, 0.3) where y > 0 and cold (0.3, 0.6, 1) elsewhere.
 SkyLight two_tone_sky();
+
+/// The overcast sky of the CIE, in units of what a level plane receives, E/π: from horizon to zenith it
+/// brightens threefold, L = 9/7 (1 + 2 sinθ)/3 (Moon and Spencer 1942); below the horizontal it is dark.
+SkyLight overcast_sky();
+
+/// How a sky's direct light is found.
+struct SkyAccuracy {
+  double error = 0.002;    ///< RMSE wanted of E₀/π in the channel that errs most
+  int azimuths = 0;        ///< > 0: fixed, even; else doubled from 64 until the check finds the error, or 512
+  std::uint64_t seed = 1;  ///< of the receivers that are checked
+  Watch watch = {};
+};
+
+/// Direct light of a sky.
+struct SkyIrradiance {
+  std::vector<TexelVector> channels;  ///< E₀/π, red, green, blue; one where the sky is grey; 0 where missing
+  int azimuths = 0;
+  double rmse = 0;  ///< of the channel that errs most, on 128 receivers picked by a hash, by exact horizons
+};
+
+/// What every receiver gets of a sky directly, over horizons of fast walks, each of which stands for its
+/// slice of azimuths. What lies below the horizontal shines, too, where nothing is in the way. The same to
+/// the last bit for any number of threads. Throws UsageError as check_sky_light does, Cancelled when the
+/// watch says so.
+SkyIrradiance sky_irradiance(const Surface& surface, const SkyLight& sky, const SkyAccuracy& accuracy = {});
+
+/// Bytes that finding it takes beside what it returns.
+std::uint64_t sky_irradiance_bytes(const Surface& surface, const SkyLight& sky);
 
 /// Of the texel in that direction, which need not be a unit vector; not 0.
 Vector3 radiance_from(const SkyLight& sky, const Vector3& direction);

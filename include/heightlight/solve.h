@@ -50,7 +50,9 @@ struct Wanted {
   std::vector<Albedo> totals = {};  ///< albedos at which the total of all bounces is found
   bool seen = false;                ///< n of every texel (forms.h), solved for at kSeenAlbedo
   int bounces = 0;          ///< K > 0: E₀ … E_K apart, for `sink`, or in Results where there is none
-  TexelVector direct = {};  ///< E₀/π of light of one's own, for `totals`; the sky's where empty
+  /// E₀/π of light of one's own, for `totals`; the sky's where empty. One for all channels, or one for each:
+  /// an albedo of one channel has as many totals then.
+  std::vector<TexelVector> direct = {};
   /// Of α, A, the moments, definitions made of A, and the sky's light for `totals`. What surfaces see of each
   /// other stays. `seen` and single bounces are those of a sky all around: they refuse `ground`.
   BelowHorizontal below = BelowHorizontal::sky;

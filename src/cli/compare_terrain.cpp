@@ -113,7 +113,7 @@ std::vector<ComparisonRow> plotted_rows(const std::vector<TerrainMethodRow>& row
 
 void draw_methods(StagedFolder& folder, const TerrainReportInput& input, Plots& plots) {
   std::vector<ParetoPanel> panels;
-  for (const SkyDefinitionText& text : sky_definitions()) panels.push_back({.quantity = text.name});
+  for (const TerrainSkyText& text : terrain_skies()) panels.push_back({.quantity = text.name});
   plots.draw(folder, {"terrain_methods.svg", "terrain_methods.png"}, [&](const auto& paths) {
     plot_pareto(paths[0], paths[1], plotted_rows(input.study.methods), panels, input.map_name);
   });

@@ -90,7 +90,7 @@ class Operator {
     }
     if (direct) {
       check_shape(*direct, "direct", surface_->height(), surface_->width());
-      request.wanted.direct = read_texels(*direct);
+      request.wanted.direct = {read_texels(*direct)};
     }
     Results results = run(request);
     py::list channels;

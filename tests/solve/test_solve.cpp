@@ -185,17 +185,48 @@ TEST_CASE("light of one's own bounces like the sky's", "[solve]") {
   request.accuracy = {.visibility = Visibility::exact_slices, .azimuths = 32};
   request.wanted = {.sky = true, .totals = {{.constant = {0.6}}}};
   const Results by_sky = solve(surface, request);
-  request.wanted.direct.assign(by_sky.sky_view_factor.values.begin(), by_sky.sky_view_factor.values.end());
+  TexelVector& direct = request.wanted.direct.emplace_back();
+  direct.assign(by_sky.sky_view_factor.values.begin(), by_sky.sky_view_factor.values.end());
   const Results by_own = solve(surface, request);
   // The sky's bounces end by what energy says is left, one's own by a bound of it: within a share of the
   // error.
   CHECK(largest_difference(by_own.totals[0][0], by_sky.totals[0][0]) < 0.2 * request.accuracy.error);
   CHECK(by_own.evidence.total_checks[0].total_rmse < 0.01);
-  for (double& value : request.wanted.direct) value *= 2;
+  for (double& value : direct) value *= 2;
   const Results twice = solve(surface, request);
   CHECK(largest_difference(twice.totals[0][0], to_texels(2 * as_eigen(by_own.totals[0][0]))) < 1e-5);
   request.wanted.bounces = 2;
   CHECK_THROWS_WITH(solve(surface, request), Catch::Contains("direct"));
+}
+
+TEST_CASE("three channels of light bounce each for itself", "[solve]") {
+  const Surface surface = make_surface("fbm", 48, 0.3F);
+  Request request = coarse_request();
+  request.accuracy = {.visibility = Visibility::exact_slices, .azimuths = 32};
+  request.wanted = {.totals = {{.constant = {0.6}}, {.constant = {0.2, 0.4, 0.6}}}};
+  for (const double brightness : {1.0, 2.0, 0.5})
+    request.wanted.direct.emplace_back(surface.map.height.size(), brightness);
+  const Results all = solve(surface, request);
+  REQUIRE(all.totals[0].size() == 3);
+  CHECK(all.totals[0][2] == all.totals[1][2]);
+  request.wanted = {.totals = {{.constant = {0.4}}}, .direct = {request.wanted.direct[1]}};
+  CHECK(solve(surface, request).totals[0][0] == all.totals[1][1]);
+  request.wanted.totals = {{.constant = {0.4, 0.5}}};
+  request.wanted.direct.resize(3, request.wanted.direct[0]);
+  CHECK_THROWS_WITH(solve(surface, request), Catch::Contains("direct"));
+}
+
+TEST_CASE("what is received is absorbed or escapes", "[solve]") {
+  const Surface surface = make_surface("fbm", 96, 0.3F);
+  Request request = coarse_request();
+  request.accuracy = {.visibility = Visibility::exact_slices, .azimuths = 64};
+  request.wanted = {.totals = {{.constant = {0.2}}, {.constant = {0.8}}, {.constant = {1}}}};
+  const std::vector<EnergyAudit> audits = solve(surface, request).evidence.audits;
+  REQUIRE(audits.size() == 3);
+  for (const EnergyAudit& audit : audits) CHECK(std::abs(audit.imbalance) < 5e-4);  // discretisation: a sum over texels
+  CHECK(audits[2].absorbed == 0);
+  CHECK(std::abs(audits[2].imbalance) < 1e-7);  // all is 1 there, which is the solver's tolerance
+  CHECK(audits[0].absorbed > 0.7);
 }
 
 TEST_CASE("bounces go to a sink, which need not keep them", "[solve]") {
@@ -311,7 +342,7 @@ TEST_CASE("requests without sense name the quantity", "[solve]") {
   CHECK(quantity_of(with([](Request& r) { r.wanted.totals = {{.constant = {2}}}; })) == "albedo");
   CHECK(quantity_of(with([](Request& r) { r.wanted.totals = {{.varying = {TexelVector(3, 0.5)}}}; })) ==
         "albedo");
-  CHECK(quantity_of(with([](Request& r) { r.wanted.direct = {1.0}; })) == "direct");
+  CHECK(quantity_of(with([](Request& r) { r.wanted.direct = {{1.0}}; })) == "direct");
   CHECK(quantity_of(with([](Request& r) {
           r.accuracy.visibility = Visibility::rays;
           r.wanted.moments.first = true;

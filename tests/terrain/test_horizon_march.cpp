@@ -102,21 +102,21 @@ TEST_CASE("a march steps by the shorter side of a cell", "[terrain]") {
 TEST_CASE("definitions of a level receiver amid an even horizon", "[terrain]") {
   const double horizon = GENERATE(0.0, 0.3, 1.2);
   const SliceNormal level{0, 1};
-  const auto value = [&](SkyDefinition definition, double slope) {
+  const auto value = [&](TerrainSky definition, double slope) {
     SkySum sum;
     for (int k = 0; k < 5; ++k) sum.add(definition, level, slope);
     return sum.value();
   };
   const double slope = std::tan(horizon);
-  CHECK(value(SkyDefinition::sky_view_factor, slope) == Approx(std::pow(std::cos(horizon), 2)));
-  CHECK(value(SkyDefinition::svf_tilted, slope) == Approx(std::pow(std::cos(horizon), 2)));
-  CHECK(value(SkyDefinition::svf_horizontal, slope) == Approx(std::pow(std::cos(horizon), 2)));
-  CHECK(value(SkyDefinition::svf_solid_angle, slope) == Approx(1 - std::sin(horizon)));
-  CHECK(value(SkyDefinition::mean_cos_h, slope) == Approx(std::cos(horizon)));
-  CHECK(value(SkyDefinition::openness_positive, slope) == Approx(pi / 2 - horizon));
+  CHECK(value(TerrainSky::sky_view_factor, slope) == Approx(std::pow(std::cos(horizon), 2)));
+  CHECK(value(TerrainSky::svf_tilted, slope) == Approx(std::pow(std::cos(horizon), 2)));
+  CHECK(value(TerrainSky::svf_horizontal, slope) == Approx(std::pow(std::cos(horizon), 2)));
+  CHECK(value(TerrainSky::svf_solid_angle, slope) == Approx(1 - std::sin(horizon)));
+  CHECK(value(TerrainSky::mean_cos_h, slope) == Approx(std::cos(horizon)));
+  CHECK(value(TerrainSky::openness_positive, slope) == Approx(pi / 2 - horizon));
   // Below the horizontal only an openness looks on; where there is no surface not even that.
-  for (const SkyDefinitionText& text : sky_definitions()) {
-    const bool looks = text.definition == SkyDefinition::openness_positive;
+  for (const TerrainSkyText& text : terrain_skies()) {
+    const bool looks = text.definition == TerrainSky::openness_positive;
     INFO(text.name << ": " << text.formula);
     CHECK(value(text.definition, -slope) == Approx(looks ? pi / 2 + horizon : 1));
     CHECK(value(text.definition, kNothing) == Approx(looks ? pi / 2 : 1));
@@ -128,7 +128,7 @@ TEST_CASE("of an open slope the tangent plane hides nothing, the horizontal its 
   const Surface slope = build_surface(
       make_map(15, 15, Boundary::open, [](int row, int column) { return 0.05 * column + 0.02 * row; }));
   const auto found =
-      walk_definitions(slope, 128, {SkyDefinition::sky_view_factor, SkyDefinition::svf_tilted});
+      walk_definitions(slope, 128, {TerrainSky::sky_view_factor, TerrainSky::svf_tilted});
   const double cosine = double{slope.normal(7, 7).z};
   REQUIRE(cosine < 0.9);
   CHECK(found[0].map(7, 7) == Approx(1).margin(1e-6));
@@ -154,7 +154,7 @@ TEST_CASE("with distances of cells a march comes near that of rastertools", "[te
   const Heightmap reference = load_shared(*theirs, 0.5).map;
   const auto rms = [&](CellDistance distance) {
     const auto found =
-        march_definitions(surface, 16, {.reach = 50, .distance = distance}, {SkyDefinition::mean_cos_h});
+        march_definitions(surface, 16, {.reach = 50, .distance = distance}, {TerrainSky::mean_cos_h});
     Image<double> values(surface.width(), surface.height());
     for (std::size_t i = 0; i < values.size(); ++i) values.values[i] = double{found[0].map.values[i]};
     return rms_inside(values, reference, 52);
@@ -167,7 +167,7 @@ TEST_CASE("a march is the same for any number of threads", "[terrain]") {
   const Surface surface = build_surface(make_rough_map(40, 30, Boundary::open, 0.1, 0, 3));
   const auto with_threads = [&](int threads) {
     const ThreadScope scope(threads);
-    return march_definitions(surface, 8, {.reach = 20}, {SkyDefinition::svf_tilted})[0].map;
+    return march_definitions(surface, 8, {.reach = 20}, {TerrainSky::svf_tilted})[0].map;
   };
   CHECK(with_threads(1) == with_threads(3));
 }

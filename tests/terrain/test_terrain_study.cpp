@@ -40,7 +40,7 @@ TEST_CASE("the truth of definitions is that of exact walks", "[terrain]") {
   REQUIRE(receivers.size() == 60);
   CHECK(std::set<std::size_t>(receivers.begin(), receivers.end()).size() == 60);
   CHECK(std::is_sorted(receivers.begin(), receivers.end()));
-  const auto values = find_exact_definitions(surface, 32, receivers, {SkyDefinition::sky_view_factor});
+  const auto values = find_exact_definitions(surface, 32, receivers, {TerrainSky::sky_view_factor});
   const ExactWalker walker(surface, 32);
   SliceView view;
   for (std::size_t i = 0; i < receivers.size(); ++i) {
@@ -113,9 +113,9 @@ TEST_CASE("a study compares methods, and its errors do not depend on threads", "
   CHECK(study.receivers == surface.map.height.size());
   // Two marches of four azimuths and two reaches, the second all; walks, and exact horizons; three plans of
   // A.
-  REQUIRE(study.methods.size() == sky_definitions().size() * (2 * 4 * 2 + 4 + 4) + 3);
+  REQUIRE(study.methods.size() == terrain_skies().size() * (2 * 4 * 2 + 4 + 4) + 3);
   REQUIRE(study.methods.size() == other.methods.size());
-  const auto rmse = [&](const std::string& method, int azimuths, SkyDefinition definition) {
+  const auto rmse = [&](const std::string& method, int azimuths, TerrainSky definition) {
     const auto row =
         std::find_if(study.methods.begin(), study.methods.end(), [&](const TerrainMethodRow& one) {
           return one.method == method && one.azimuths == azimuths && one.reach == 0 &&
@@ -132,7 +132,7 @@ TEST_CASE("a study compares methods, and its errors do not depend on threads", "
     CHECK(row.per_megatexel == Approx(row.cost.core / (48 * 48 * 1e-6)));
     if (row.error_wanted > 0) CHECK(row.error.rmse < 1.5 * row.error_wanted);
   }
-  for (const SkyDefinitionText& text : sky_definitions()) {
+  for (const TerrainSkyText& text : terrain_skies()) {
     INFO(text.name);
     CHECK(rmse(kExactHorizonMethod, 64, text.definition) <
           0.2 * rmse(kExactHorizonMethod, 8, text.definition));

@@ -120,7 +120,8 @@ TEST_CASE("totals are lit from above the horizontal, and carried on as ever", "[
   // Identity: the same as light of one's own.
   Request given = request;
   given.wanted = {.totals = request.wanted.totals};
-  for (const float share : walked.sky_view_factor.values) given.wanted.direct.push_back(double{share});
+  TexelVector& direct = given.wanted.direct.emplace_back();
+  for (const float share : walked.sky_view_factor.values) direct.push_back(double{share});
   CHECK(solve(surface, given).totals == walked.totals);
 
   request.accuracy = {.visibility = Visibility::exact_slices, .azimuths = 128};

@@ -61,6 +61,18 @@ SkyLight two_tone_sky() {
   return sky;
 }
 
+SkyLight overcast_sky() {
+  constexpr int kRows = 512;
+  SkyLight sky{Image<Vector3>(2 * kRows, kRows)};
+  for (int row = 0; row < kRows / 2; ++row) {
+    const double elevation = pi / 2 - pi * (row + 0.5) / kRows;
+    const auto radiance = static_cast<float>(9.0 / 7 * (1 + 2 * std::sin(elevation)) / 3);
+    for (int column = 0; column < 2 * kRows; ++column)
+      sky.radiance(row, column) = {radiance, radiance, radiance};
+  }
+  return sky;
+}
+
 Vector3 radiance_from(const SkyLight& sky, const Vector3& direction) {
   const Image<Vector3>& image = sky.radiance;
   const Place place = place_of(image, direction);

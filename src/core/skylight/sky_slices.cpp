@@ -99,8 +99,7 @@ Eigen::Vector3d SkySlices::irradiance(const Eigen::Vector3d& normal,
     const SliceNormal in_slice{normal.x() * std::cos(azimuth) + normal.y() * std::sin(azimuth), normal.z()};
     const double tangent = tangent_slope(in_slice);
     hemisphere += cosine_mass(in_slice, elevation_of_slope(tangent), Elevation{});
-    const Sums sums = above(k, std::max(std::atan(tangent), horizon_rad[k]));
-    received += in_slice.along * sums.cosine_squared + in_slice.up * sums.sine_cosine;
+    received += from_slice(k, in_slice, std::max(std::atan(tangent), horizon_rad[k]));
   }
   return received / hemisphere;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "heightlight/sky_light.h"
+#include "visibility/slice_integrals.h"
 
 namespace heightlight {
 
@@ -24,6 +25,13 @@ class SkySlices {
 
   /// Bytes that so many slices of a sky take.
   static std::uint64_t bytes(const SkyLight& sky, int azimuths);
+
+  /// The same of one of the azimuths, but for the division: what its slice sends above a horizon. `in_slice`
+  /// is the receiver's normal there.
+  Eigen::Vector3d from_slice(std::size_t azimuth, const SliceNormal& in_slice, double horizon_rad) const {
+    const Sums sums = above(azimuth, horizon_rad);
+    return in_slice.along * sums.cosine_squared + in_slice.up * sums.sine_cosine;
+  }
 
   /// E/π, red, green and blue, of a receiver with the unit `normal` above the horizons, per azimuth, in
   /// radians; the tangent plane hides what lies below it. As A does (exact_walk.h), it is divided by the

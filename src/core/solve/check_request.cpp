@@ -32,12 +32,17 @@ void check_albedo(const Surface& surface, const Albedo& albedo) {
 
 void check_direct(const Surface& surface, const Wanted& wanted) {
   if (wanted.direct.empty()) return;
-  if (wanted.direct.size() != surface.map.height.size()) {
-    throw UsageError("direct", "", "must have a value for every texel of the map");
+  for (const Albedo& albedo : wanted.totals) {
+    if (wanted.direct.size() == 1 || albedo.channels() == 1 || albedo.channels() == wanted.direct.size())
+      continue;
+    throw UsageError("direct", "", "must have one channel, or those of the albedo");
   }
   const auto is_light = [](double value) { return value >= 0 && std::isfinite(value); };
-  if (!std::all_of(wanted.direct.begin(), wanted.direct.end(), is_light)) {
-    throw UsageError("direct", "", "must be finite and not negative");
+  for (const TexelVector& channel : wanted.direct) {
+    if (channel.size() != surface.map.height.size())
+      throw UsageError("direct", "", "must have a value for every texel of the map");
+    if (!std::all_of(channel.begin(), channel.end(), is_light))
+      throw UsageError("direct", "", "must be finite and not negative");
   }
   if (wanted.bounces > 0 || wanted.seen) {
     throw UsageError("direct", "", "is for totals alone: single bounces and n are those of the sky's light");
@@ -103,6 +108,10 @@ void check_request(const Surface& surface, const Request& request) {
 
 bool needs_operator(const Wanted& wanted) {
   return !wanted.totals.empty() || wanted.seen || wanted.bounces > 0;
+}
+
+std::size_t total_channels(const Wanted& wanted, const Albedo& albedo) {
+  return std::max(albedo.channels(), wanted.direct.size());
 }
 
 bool keeps_sky(const Wanted& wanted) {

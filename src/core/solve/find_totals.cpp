@@ -7,16 +7,27 @@
 namespace heightlight {
 namespace {
 
-/// One system per channel of the albedos asked for, in their order, and one at kSeenAlbedo where `seen` says
+/// Of one channel of what is wanted at an albedo. A channel that only one of the two has goes with all.
+LightSystem system_of(const Task& task, const Albedo& albedo, std::size_t channel) {
+  LightSystem system;
+  if (!task.direct.empty()) system.direct = &task.direct[channel % task.direct.size()];
+  const std::size_t own = channel % albedo.channels();
+  if (albedo.varying.empty()) {
+    system.albedo = albedo.constant[own];
+  } else {
+    system.varying = &albedo.varying[own];
+  }
+  return system;
+}
+
+/// One system per channel of the totals asked for, in their order, and one at kSeenAlbedo where `seen` says
 /// so.
 std::vector<LightSystem> list_systems(const Task& task, bool seen) {
   const Wanted& wanted = task.request.wanted;
-  const TexelVector* direct = task.direct;
   std::vector<LightSystem> systems;
   for (const Albedo& albedo : wanted.totals) {
-    for (const double constant : albedo.constant) systems.push_back({.direct = direct, .albedo = constant});
-    for (const TexelVector& varying : albedo.varying)
-      systems.push_back({.direct = direct, .varying = &varying});
+    for (std::size_t c = 0; c < total_channels(wanted, albedo); ++c)
+      systems.push_back(system_of(task, albedo, c));
   }
   if (seen) systems.push_back({.albedo = kSeenAlbedo});
   return systems;
@@ -84,7 +95,7 @@ bool refine_totals(const Task& task, const std::vector<LightSystem>& systems, Ch
 void keep_worst_channels(const Wanted& wanted, const std::vector<HorizonCheck>& checks, Evidence& evidence) {
   auto next = checks.begin();
   for (const Albedo& albedo : wanted.totals) {
-    const auto end = next + static_cast<std::ptrdiff_t>(albedo.channels());
+    const auto end = next + static_cast<std::ptrdiff_t>(total_channels(wanted, albedo));
     evidence.total_checks.push_back(*std::max_element(
         next, end, [](const HorizonCheck& a, const HorizonCheck& b) { return a.total_rmse < b.total_rmse; }));
     next = end;
@@ -96,7 +107,7 @@ void check_and_refine(const Task& task, const Transport& transport, std::vector<
                       Totals& solved, Evidence& evidence) {
   const Request& request = task.request;
   std::size_t wanted = 0;
-  for (const Albedo& albedo : request.wanted.totals) wanted += albedo.channels();
+  for (const Albedo& albedo : request.wanted.totals) wanted += total_channels(request.wanted, albedo);
   systems.resize(wanted);
   Checked checked{.totals = solved, .checks = check_totals(task, transport, systems, solved)};
   if (checked.checks[0].receivers == 0) return;
@@ -135,7 +146,11 @@ TexelVector find_totals(const Task& task, const Transport& transport, Results& r
   auto next = solved.irradiance.begin();
   for (const Albedo& albedo : wanted.totals) {
     std::vector<TexelVector>& channels = results.totals.emplace_back();
-    for (std::size_t c = 0; c < albedo.channels(); ++c) channels.push_back(std::move(*next++));
+    for (std::size_t c = 0; c < total_channels(wanted, albedo); ++c) {
+      const auto i = static_cast<std::size_t>(next - solved.irradiance.begin());
+      evidence.audits.push_back(audit_energy(task.surface, transport, systems[i], *next));
+      channels.push_back(std::move(*next++));
+    }
   }
   return seen ? std::move(*next) : TexelVector{};
 }

@@ -18,9 +18,9 @@ namespace {
 constexpr std::uint64_t kVector = sizeof(TexelVector::value_type);
 constexpr std::uint64_t kMap = sizeof(Map::value_type);
 
-std::uint64_t channels_of(const std::vector<Albedo>& albedos) {
+std::uint64_t channels_of(const Wanted& wanted) {
   std::uint64_t channels = 0;
-  for (const Albedo& albedo : albedos) channels += albedo.channels();
+  for (const Albedo& albedo : wanted.totals) channels += total_channels(wanted, albedo);
   return channels;
 }
 
@@ -34,7 +34,7 @@ constexpr std::uint64_t kSystemMaps = 4;
 /// Per texel, of the bounces and totals: their vectors beside the operator.
 std::uint64_t light_bytes(const Request& request) {
   const Wanted& wanted = request.wanted;
-  const std::uint64_t systems = channels_of(wanted.totals) + (wanted.seen || wanted.bounces > 0 ? 1 : 0);
+  const std::uint64_t systems = channels_of(wanted) + (wanted.seen || wanted.bounces > 0 ? 1 : 0);
   const bool walks = request.accuracy.visibility == Visibility::horizon_walks;
   std::uint64_t bytes = kVector * systems + (wanted.seen ? 2 * kMap : 0);
   const std::uint64_t solving = walks ? systems * kSystemMaps * kMap : kSolverVectors * kVector;
@@ -69,7 +69,7 @@ std::uint64_t estimate_memory(int width, int height, const Request& request) {
     if (request.accuracy.visibility == Visibility::horizon_walks) {
       // The heights that gathers look at, and the fields that one reads at once.
       const std::uint64_t fields = std::min<std::uint64_t>(
-          kMostFields, channels_of(wanted.totals) + (wanted.seen || wanted.bounces > 0 ? 1 : 0));
+          kMostFields, channels_of(wanted) + (wanted.seen || wanted.bounces > 0 ? 1 : 0));
       pyramids += gather_bytes(width, height, fields);
       if (wanted.bounces > 0) pyramids += gather_bytes(width, height, 0);  // bounces may look more closely
     }
@@ -81,7 +81,7 @@ std::uint64_t estimate_memory(int width, int height, const Request& request) {
 
 std::uint64_t refinement_bytes(int width, int height, const Wanted& wanted) {
   const auto texels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
-  return texels * (horizon_sky_bytes({}) + kVector * (1 + channels_of(wanted.totals))) +
+  return texels * (horizon_sky_bytes({}) + kVector * (1 + channels_of(wanted))) +
          gather_bytes(width, height, 0);
 }
 

@@ -111,13 +111,13 @@ Results solve(const Surface& surface, const Request& request) {
   const Wanted& wanted = request.wanted;
   Task task{.surface = surface,
             .request = request,
-            .direct = wanted.direct.empty() ? nullptr : &wanted.direct,
+            .direct = wanted.direct,
             .free_memory = memory_left(surface, request, evidence)};
   Stopwatch watch;
-  TexelVector from_above;
+  std::vector<TexelVector> from_above;
   if (lights_from_above(wanted)) {
-    from_above = find_light_from_above(task, results);
-    task.direct = &from_above;
+    from_above.push_back(find_light_from_above(task, results));
+    task.direct = from_above;
   }
   evidence.seconds.visibility += watch.lap();
   if (needs_operator(wanted)) find_light(task, results);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "heightlight/solve.h"
@@ -13,12 +14,15 @@ namespace heightlight {
 struct Task {
   const Surface& surface;
   const Request& request;
-  const TexelVector* direct = nullptr;  ///< E₀/π of totals; null: the sky's, as the operator has it
+  std::span<const TexelVector> direct = {};  ///< E₀/π of totals; empty: the sky's, as the operator has it
   std::uint64_t free_memory = 0;        ///< bytes that the limit leaves for links, or for a refinement
 };
 
 /// Throws UsageError naming the quantity that is out of its range or contradicts another.
 void check_request(const Surface& surface, const Request& request);
+
+/// Channels that totals at an albedo have.
+std::size_t total_channels(const Wanted& wanted, const Albedo& albedo);
 
 /// Whether anything bounces, so that an operator is needed.
 bool needs_operator(const Wanted& wanted);
@@ -69,6 +73,10 @@ void note_solver(double residual, int iterations, Evidence& evidence);
 /// The totals asked for, checked, and found once more where they miss the error wanted; and E/π at
 /// kSeenAlbedo, which is returned, where n or single bounces are wanted.
 TexelVector find_totals(const Task& task, const Transport& transport, Results& results);
+
+/// Where the light of a total went, that is E/π of `system`.
+EnergyAudit audit_energy(const Surface& surface, const Transport& transport, const LightSystem& system,
+                         const TexelVector& total);
 
 /// t of the closed forms, from E/π at kSeenAlbedo.
 double deep_seen(const Transport& transport, const TexelVector& at_seen_albedo);

@@ -16,7 +16,7 @@ using std::numbers::pi;
 constexpr std::size_t kAtOnce = 8;  // maps of horizons that are held
 
 /// Adds what one azimuth sees to every texel's sum.
-void add_horizons(const Surface& surface, double azimuth_rad, const Map& slopes, SkyDefinition definition,
+void add_horizons(const Surface& surface, double azimuth_rad, const Map& slopes, TerrainSky definition,
                   Image<SkySum>& sums) {
   const AzimuthDirection azimuth(azimuth_rad);
   for_texels(slopes, [&](std::size_t i) {
@@ -36,7 +36,7 @@ Map to_values(const Surface& surface, const Image<SkySum>& sums) {
 }  // namespace
 
 std::vector<DefinitionMap> sum_definitions(const Surface& surface, const std::vector<double>& azimuths_rad,
-                                           const std::vector<SkyDefinition>& definitions,
+                                           const std::vector<TerrainSky>& definitions,
                                            const HorizonFinder& find_horizons) {
   std::vector<Image<SkySum>> sums(definitions.size(), Image<SkySum>(surface.width(), surface.height()));
   std::vector<DefinitionMap> found(definitions.size());
@@ -69,7 +69,7 @@ std::uint64_t definition_bytes_per_texel(std::size_t definitions) {
 }
 
 std::vector<DefinitionMap> march_definitions(const Surface& surface, int azimuths, MarchOptions march,
-                                             const std::vector<SkyDefinition>& definitions) {
+                                             const std::vector<TerrainSky>& definitions) {
   std::vector<double> azimuths_rad;
   for (int k = 0; k < azimuths; ++k) azimuths_rad.push_back(pi / 2 - 2 * pi * k / azimuths);
   return sum_definitions(surface, azimuths_rad, definitions, [&](const std::vector<double>& some) {
@@ -83,8 +83,7 @@ std::vector<DefinitionMap> march_definitions(const Surface& surface, int azimuth
 }
 
 std::vector<DefinitionMap> walk_definitions(const Surface& surface, int azimuths,
-                                            const std::vector<SkyDefinition>& definitions,
-                                            const Watch& watch) {
+                                            const std::vector<TerrainSky>& definitions, const Watch& watch) {
   std::vector<double> azimuths_rad;
   for (int k = 0; k < azimuths; ++k) azimuths_rad.push_back(2 * pi * (k + 0.25) / azimuths);
   return sum_definitions(surface, azimuths_rad, definitions, [&](const std::vector<double>& some) {

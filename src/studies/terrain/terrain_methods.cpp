@@ -17,9 +17,9 @@ constexpr int kTriedAzimuths[] = {8, 16, 32, 64};
 constexpr int kReaches[] = {10, 50, 100, 1000, 0};  // cells; 0: all
 constexpr double kErrors[] = {0.01, 0.003, 0.001};
 
-std::vector<SkyDefinition> all_definitions() {
-  std::vector<SkyDefinition> definitions;
-  for (const SkyDefinitionText& text : sky_definitions()) definitions.push_back(text.definition);
+std::vector<TerrainSky> all_definitions() {
+  std::vector<TerrainSky> definitions;
+  for (const TerrainSkyText& text : terrain_skies()) definitions.push_back(text.definition);
   return definitions;
 }
 
@@ -64,7 +64,7 @@ std::vector<FoundSky> walk_exactly(const Surface& surface, const TerrainTruth& t
   const double texels = static_cast<double>(surface.map.height.size() - count_missing(surface.map));
   const double times = texels / static_cast<double>(truth.receivers.size());
   std::vector<FoundSky> found;
-  for (const SkyDefinition definition : all_definitions()) {
+  for (const TerrainSky definition : all_definitions()) {
     const Stopwatch stopwatch;
     auto values = find_exact_definitions(surface, azimuths, truth.receivers, {definition}, watch);
     found.push_back({definition, std::move(values[0]), times * stopwatch.elapsed()});
@@ -81,7 +81,7 @@ std::vector<FoundSky> solve_sky(const Surface& surface, const TerrainTruth& trut
   request.watch = watch;
   const Stopwatch stopwatch;
   const Results results = solve(surface, request);
-  return {{SkyDefinition::sky_view_factor, values_at(results.sky_view_factor, truth.receivers),
+  return {{TerrainSky::sky_view_factor, values_at(results.sky_view_factor, truth.receivers),
            stopwatch.elapsed()}};
 }
 

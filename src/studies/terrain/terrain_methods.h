@@ -13,7 +13,7 @@ namespace heightlight {
 
 /// One definition as a method finds it.
 struct FoundSky {
-  SkyDefinition definition = SkyDefinition::sky_view_factor;
+  TerrainSky definition = TerrainSky::sky_view_factor;
   std::vector<double> values;  ///< of the truth's receivers
   Cost cost;                   ///< of the whole map, of that definition alone
 };
@@ -50,7 +50,7 @@ struct TerrainMethodRow {
   int azimuths = 0;
   int reach = 0;
   double error_wanted = 0;
-  SkyDefinition definition = SkyDefinition::sky_view_factor;
+  TerrainSky definition = TerrainSky::sky_view_factor;
   Cost cost = {};
   double per_megatexel = 0;  ///< core-seconds
   DefinitionError error = {};

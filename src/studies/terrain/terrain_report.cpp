@@ -167,7 +167,7 @@ std::string cost_and_error(const TerrainMethodRow& row) {
 }
 
 /// Of one definition in the usual way, and by as many walks; of A also by a walk planned for an error.
-void write_usual_cost(std::FILE* file, const TerrainStudy& study, SkyDefinition definition) {
+void write_usual_cost(std::FILE* file, const TerrainStudy& study, TerrainSky definition) {
   constexpr int kUsualAzimuths = 16;
   constexpr int kUsualReach = 100;
   fmt::print(file, "* **What do {} azimuths and {} cells of reach cost {}?**", kUsualAzimuths, kUsualReach,
@@ -194,7 +194,7 @@ void write_methods(std::FILE* file, const TerrainStudy& study) {
       "the distance of the cell's middle. Horizon walks find no horizon below the tangent plane, which "
       "those of a level receiver can have. Exact horizons are timed on the receivers.\n\n",
       study.receivers, kTruthAzimuths);
-  for (const SkyDefinitionText& text : sky_definitions()) {
+  for (const TerrainSkyText& text : terrain_skies()) {
     fmt::print(file, "### {}: {}\n\n", text.name, as_markdown(text.formula));
     begin_table(file, {"method", "parameters", "core-seconds per megatexel", "RMSE", "bias", "p95"});
     for (const TerrainMethodRow& row : study.methods) {
@@ -215,8 +215,8 @@ void write_terrain_report(const std::filesystem::path& path, const TerrainReport
     const double window = windows[windows.size() / 2];
     write_map(file, input);
     for (const TrialLight& light : study.trial.lights) write_best_form(file, study, light.name, window);
-    write_usual_cost(file, study, SkyDefinition::sky_view_factor);
-    write_usual_cost(file, study, SkyDefinition::svf_tilted);
+    write_usual_cost(file, study, TerrainSky::sky_view_factor);
+    write_usual_cost(file, study, TerrainSky::svf_tilted);
     std::fputc('\n', file);
     write_truth(file, study);
     write_formulas(file);

@@ -6,7 +6,7 @@
 namespace heightlight {
 
 std::uint64_t study_bytes_per_texel(std::size_t albedos) {
-  return trial_bytes_per_texel(albedos) + definition_bytes_per_texel(sky_definitions().size());
+  return trial_bytes_per_texel(albedos) + definition_bytes_per_texel(terrain_skies().size());
 }
 
 TerrainStudy study_terrain(const Surface& surface, TrialOptions options) {

@@ -134,8 +134,7 @@ class Trial {
     request.transport = &transport;
     Results under_sky = solve(surface_, request);
     const Map& sky = under_sky.sky_view_factor;
-    const auto upper =
-        walk_definitions(surface_, kUpperAzimuths, {SkyDefinition::svf_tilted}, options_.watch);
+    const auto upper = walk_definitions(surface_, kUpperAzimuths, {TerrainSky::svf_tilted}, options_.watch);
     factors_ = find_factors(surface_, sky, upper[0].map);
     results_.mean_sky = mean_over_present(surface_, factors_.sky);
     results_.mean_upper_sky = mean_over_present(
@@ -150,7 +149,7 @@ class Trial {
     TexelVector sun = sun_irradiance(surface_, options_.sun, options_.watch);
     results_.sun_cost = stopwatch.elapsed();
     request.wanted.sky = request.wanted.seen = false;
-    request.wanted.direct = sun;
+    request.wanted.direct = {sun};
     results_.lights.push_back({.name = "sun",
                                .level = std::sin(options_.sun.elevation_rad),
                                .direct = std::move(sun),

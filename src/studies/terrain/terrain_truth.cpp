@@ -28,7 +28,7 @@ std::vector<std::size_t> pick_receivers(const Surface& surface, int most, std::u
 
 std::vector<std::vector<double>> find_exact_definitions(const Surface& surface, int azimuths,
                                                         const std::vector<std::size_t>& receivers,
-                                                        const std::vector<SkyDefinition>& definitions,
+                                                        const std::vector<TerrainSky>& definitions,
                                                         const Watch& watch) {
   const ExactWalker walker(surface, azimuths);
   const auto width = static_cast<std::size_t>(surface.width());
@@ -55,8 +55,8 @@ std::vector<std::vector<double>> find_exact_definitions(const Surface& surface, 
 }
 
 TerrainTruth find_terrain_truth(const Surface& surface, std::uint64_t seed, const Watch& watch) {
-  std::vector<SkyDefinition> definitions;
-  for (const SkyDefinitionText& text : sky_definitions()) definitions.push_back(text.definition);
+  std::vector<TerrainSky> definitions;
+  for (const TerrainSkyText& text : terrain_skies()) definitions.push_back(text.definition);
   TerrainTruth truth;
   truth.receivers = pick_receivers(surface, kTruthReceivers, seed);
   truth.by_name = find_exact_definitions(surface, kTruthAzimuths, truth.receivers, definitions, watch);

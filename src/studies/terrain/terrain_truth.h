@@ -5,7 +5,7 @@
 
 #include "heightlight/surface.h"
 #include "heightlight/watch.h"
-#include "terrain/sky_definitions.h"
+#include "terrain/terrain_skies.h"
 
 namespace heightlight {
 
@@ -18,9 +18,9 @@ inline constexpr int kTruthReceivers = 4096;
 /// What methods are compared with, on some receivers.
 struct TerrainTruth {
   std::vector<std::size_t> receivers;        ///< texels that are present, rising, none twice
-  std::vector<std::vector<double>> by_name;  ///< per definition, in the order of sky_definitions()
+  std::vector<std::vector<double>> by_name;  ///< per definition, in the order of terrain_skies()
 
-  const std::vector<double>& of(SkyDefinition definition) const {
+  const std::vector<double>& of(TerrainSky definition) const {
     return by_name[static_cast<std::size_t>(definition)];
   }
 };
@@ -31,7 +31,7 @@ std::vector<std::size_t> pick_receivers(const Surface& surface, int most, std::u
 /// Per definition, of each receiver, from exact horizons along φ_k = 2π (k + ¼)/azimuths.
 std::vector<std::vector<double>> find_exact_definitions(const Surface& surface, int azimuths,
                                                         const std::vector<std::size_t>& receivers,
-                                                        const std::vector<SkyDefinition>& definitions,
+                                                        const std::vector<TerrainSky>& definitions,
                                                         const Watch& watch = {});
 
 TerrainTruth find_terrain_truth(const Surface& surface, std::uint64_t seed, const Watch& watch = {});
