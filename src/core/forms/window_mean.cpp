@@ -30,8 +30,8 @@ class LineSums {
     const auto length = static_cast<std::int64_t>(sums_.size()) - 1;
     if (!repeats_) return sums_[static_cast<std::size_t>(std::clamp<std::int64_t>(end, 0, length))];
     const std::int64_t within = ((end % length) + length) % length;
-    const auto turns = static_cast<double>((end - within) / length);
-    return turns * sums_.back() + sums_[static_cast<std::size_t>(within)];
+    const std::int64_t turns = (end - within) / length;
+    return static_cast<double>(turns) * sums_.back() + sums_[static_cast<std::size_t>(within)];
   }
 
   bool repeats_;

@@ -30,7 +30,7 @@ std::vector<double> values_at(const Map& map, const std::vector<std::size_t>& re
   return values;
 }
 
-std::vector<FoundSky> at_receivers(std::vector<DefinitionMap> maps, const TerrainTruth& truth) {
+std::vector<FoundSky> at_receivers(const std::vector<DefinitionMap>& maps, const TerrainTruth& truth) {
   std::vector<FoundSky> found;
   for (const DefinitionMap& one : maps)
     found.push_back({one.definition, values_at(one.map, truth.receivers), one.cost});

@@ -170,7 +170,7 @@ std::string cost_and_error(const TerrainMethodRow& row) {
 void write_usual_cost(std::FILE* file, const TerrainStudy& study, TerrainSky definition) {
   constexpr int kUsualAzimuths = 16;
   constexpr int kUsualReach = 100;
-  fmt::print(file, "* **What do {} azimuths and {} cells of reach cost {}?**", kUsualAzimuths, kUsualReach,
+  fmt::print(file, "* **What do {} azimuths and {} cells of reach cost, of {}?**", kUsualAzimuths, kUsualReach,
              as_markdown(name_of(definition)));
   const TerrainMethodRow* planned = nullptr;
   for (const TerrainMethodRow& row : study.methods) {
