@@ -170,8 +170,8 @@ std::string cost_and_error(const TerrainMethodRow& row) {
 void write_usual_cost(std::FILE* file, const TerrainStudy& study, TerrainSky definition) {
   constexpr int kUsualAzimuths = 16;
   constexpr int kUsualReach = 100;
-  fmt::print(file, "* **What do {} azimuths and {} cells of reach cost, of {}?**", kUsualAzimuths, kUsualReach,
-             as_markdown(name_of(definition)));
+  fmt::print(file, "* **What do {} azimuths and {} cells of reach cost, of {}?**", kUsualAzimuths,
+             kUsualReach, as_markdown(name_of(definition)));
   const TerrainMethodRow* planned = nullptr;
   for (const TerrainMethodRow& row : study.methods) {
     if (row.definition != definition) continue;
@@ -192,7 +192,9 @@ void write_methods(std::FILE* file, const TerrainStudy& study) {
       "azimuths. Core-seconds per megatexel, each definition found alone. Nearest-cell marching steps "
       "by a cell along the ray, and takes the height of the nearest cell and the way along the ray, or "
       "the distance of the cell's middle. Horizon walks find no horizon below the tangent plane, which "
-      "those of a level receiver can have. Exact horizons are timed on the receivers.\n\n",
+      "those of a level receiver can have. Exact horizons are timed on the receivers. Sums over azimuths "
+      "are the same for all three, and take most of the time of marches on slopes; planned walks have "
+      "their own.\n\n",
       study.receivers, kTruthAzimuths);
   for (const TerrainSkyText& text : terrain_skies()) {
     fmt::print(file, "### {}: {}\n\n", text.name, as_markdown(text.formula));
