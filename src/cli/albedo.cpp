@@ -94,7 +94,10 @@ ReadAlbedo read_albedo_file(const std::string& path, const Heightmap& map, std::
   const std::size_t channels = image.channels.size() >= 3 ? 3 : 1;  // an alpha channel follows one or three
   for (std::size_t channel = 0; channel < channels; ++channel) {
     albedo.varying.push_back(decode(image, channel));
-    const TexelVector& values = albedo.varying.back();
+    TexelVector& values = albedo.varying.back();
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (std::isnan(map.height.values[i])) values[i] = 0;  // where nothing is, it may be missing, too
+    }
     const auto in_range = [](double value) { return value >= 0 && value <= 1; };
     if (!std::all_of(values.begin(), values.end(), in_range)) {
       throw file_error(path, "the albedo has samples outside [0, 1]");

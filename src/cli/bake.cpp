@@ -26,6 +26,7 @@ namespace {
 InputGuard guard_inputs(const BakeCommand& command, const BakeInputs& listed) {
   std::vector<std::filesystem::path> files = listed.left_out;
   files.emplace_back(command.albedo);
+  for (const std::filesystem::path& path : light_files(command.light)) files.push_back(path);
   for (const BakeInput& input : listed.inputs) {
     files.push_back(input.path);
     files.push_back(std::filesystem::path(input.path).replace_extension(".prj"));
@@ -38,6 +39,7 @@ void check_batch(const BakeCommand& command, const BakeInputs& listed, const Inp
   for (const BakeInput& input : listed.inputs) {
     BakeOptions options = options_for(command, input.path);
     for (const std::string& name : baked_files(input.name, options)) guard.check(command.folder / name);
+    if (has_own_light(command.light)) options.find_light = [](const Surface&) { return BakedLight{}; };
     options.albedo.constant.resize(3);  // how many channels it has, a file may have to tell
     check_bake_options(options);
   }
@@ -54,6 +56,18 @@ BakeOutcome bake_file(const BakeCommand& command, const BakeInput& input, const 
     const double width = loaded.map.spacing.x * loaded.map.height.width;
     options.reach = Reach{.distance = parse_distance("max_distance", command.max_distance, width),
                           .falloff = falloff_named(command.falloff)};
+  }
+  if (has_own_light(command.light)) {
+    options.find_light = [&](const Surface& surface) {
+      DirectLight light = find_direct_light(command.light, surface,
+                                            {.error = options.error,
+                                             .seed = options.seed,
+                                             .memory = command.run.memory,
+                                             .watch = options.watch});
+      return BakedLight{.channels = std::move(light.channels),
+                        .description = std::move(light.description),
+                        .rmse = light.rmse};
+    };
   }
   options.surface = surface_of(command, loaded.facts.sha256);
   options.request = request_of(command, options, loaded.facts.sha256, albedo.sha256);
@@ -162,6 +176,7 @@ void add_map_content_options(CLI::App& app, BakeCommand& command) {
          "of multibounce: a number or R,G,B (linear), '#RRGGBB' (sRGB), or an image of the map's size "
          "(0.5)")
       ->type_name("R|R,G,B|#RRGGBB|FILE");
+  add_light_options(app, command.light);
   app.add_option("--max-distance", command.max_distance,
                  "how far occluders count, in world units or percent of the width; not for multibounce, ao-n "
                  "(everywhere)")

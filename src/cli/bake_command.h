@@ -6,6 +6,7 @@
 
 #include "bake/bake.h"
 #include "cli/bake_inputs.h"
+#include "cli/light_options.h"
 #include "cli/map_options.h"
 
 namespace heightlight {
@@ -20,6 +21,7 @@ struct BakeCommand {
   std::string maps;
   std::string packed;
   std::string albedo = "0.5";
+  LightOptions light;  ///< of multibounce and direct
   std::string max_distance;
   std::string falloff = "none";
   std::string format;  ///< empty: GeoTIFF of terrain, PNG of materials

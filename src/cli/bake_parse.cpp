@@ -119,6 +119,7 @@ void parse_bake_options(BakeCommand& command) {
     check_reach({.distance = parse_distance("max_distance", command.max_distance, 1)});
   check_load_options(command.load);
   check_albedo(command.albedo);
+  check_light_options(command.light);
 }
 
 BakeOptions options_for(const BakeCommand& command, const std::filesystem::path& map) {

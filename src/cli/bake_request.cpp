@@ -36,6 +36,7 @@ std::string request_of(const BakeCommand& command, const BakeOptions& options, c
   if (options.below == BelowHorizontal::ground) request["below_horizontal"] = "ground";
   if (options.azimuth_convention)
     request["azimuth_convention"] = static_cast<int>(*options.azimuth_convention);
+  if (const std::string light = light_key(command.light); !light.empty()) request["light"] = light;
   return request_key(request);
 }
 

@@ -8,6 +8,7 @@
 
 #include "base/byte_size.h"
 #include "cli/albedo.h"
+#include "cli/light_options.h"
 #include "cli/name_errors.h"
 #include "cli/plots.h"
 #include "cli/terminal_watch.h"
@@ -28,23 +29,6 @@ namespace {
 
 using nlohmann::ordered_json;
 using std::numbers::pi;
-
-double parse_angle(const std::string& text, const std::string& whole) {
-  double degrees = 0;
-  const auto [stop, fault] = std::from_chars(text.data(), text.data() + text.size(), degrees);
-  if (fault != std::errc() || stop != text.data() + text.size())
-    throw UsageError("sun", whole, "write its azimuth, clockwise from north, and its elevation: 135,30");
-  return degrees * pi / 180;
-}
-
-Sun parse_sun(const std::string& text) {
-  const std::size_t comma = std::min(text.find(','), text.size());
-  Sun sun;
-  sun.azimuth_rad = pi / 2 - parse_angle(text.substr(0, comma), text);
-  sun.elevation_rad = parse_angle(text.substr(std::min(comma + 1, text.size())), text);
-  check_sun(sun);
-  return sun;
-}
 
 TrialOptions trial_options(const TerrainRun& run, const Surface& surface) {
   TrialOptions options{.sun = run.sun, .seed = run.run.seed, .watch = terminal_watch(run.run.quiet)};

@@ -54,6 +54,7 @@ void add_simulate_command(CLI::App& app) {
       ->add_option("--albedo", options->albedo,
                    "of the total: a number, R,G,B, or an image of the map's size (0.5)")
       ->type_name("R|R,G,B|FILE");
+  add_light_options(*command, options->light);
   command->add_option("--bins", options->bins, "AO bins of the curves (100)");
   command->add_flag("--save-bounces", options->save_bounces,
                     "also write irradiance_00.exr, irradiance_01.exr, …");
@@ -74,7 +75,8 @@ void add_simulate_command(CLI::App& app) {
       "  heightlight simulate brick.png -o brick                         a tiling material, relief a tenth "
       "of its width\n"
       "  heightlight simulate rock.exr -o rock --relief 0.3 --albedo 0.6,0.4,0.3\n"
-      "  heightlight simulate dem.tif -o dem --texel 50 --boundary open  terrain in metres");
+      "  heightlight simulate dem.tif -o dem                             terrain, as its file tells of it\n"
+      "  heightlight simulate dem.tif -o dem --sun 135,30 --albedo 0.9   sun on snow");
   command->callback([options] {
     apply_run_options(options->run);
     check_simulate_options(*options);

@@ -23,7 +23,9 @@ constexpr int kStudyBins = 40;
 
 InputGuard guard_inputs(const SimulateOptions& options) {
   if (options.inputs) return *options.inputs;
-  return {options.map.path, options.albedo};  // an albedo that is a number names no file
+  std::vector<std::filesystem::path> files = light_files(options.light);
+  files.insert(files.end(), {options.map.path, options.albedo});  // an albedo that is a number names no file
+  return files;
 }
 
 LoadedHeightmap load_input(const SimulateOptions& options) {
@@ -46,7 +48,9 @@ std::uint64_t bytes_held(const SimulateOptions& options, const Surface& surface,
       options.save_links ? sizeof(std::int64_t) : 0;  // of rows, while links are written
   const std::uint64_t transfer =
       options.obscurance.empty() ? 0 : (1 + albedo.channels()) * sizeof(Map::value_type);
-  const std::uint64_t per_texel = ends + transfer + SimulationSink::bytes_per_texel() +
+  const std::uint64_t light =
+      has_own_light(options.light) ? 3 * (sizeof(TexelVector::value_type) + sizeof(Map::value_type)) : 0;
+  const std::uint64_t per_texel = ends + transfer + light + SimulationSink::bytes_per_texel() +
                                   albedo.channels() * sizeof(Map::value_type) +
                                   albedo.varying.size() * sizeof(TexelVector::value_type);
   return surface.map.height.size() * per_texel;
@@ -70,6 +74,29 @@ Request make_request(const SimulateOptions& options, const Albedo& albedo, const
   return request;
 }
 
+/// Bounces under an even sky and the total under a light of one's own, by one operator.
+Results solve_with_light(const Surface& surface, const Request& request, std::vector<TexelVector> direct) {
+  const PlannedTransport found = find_operator(surface, request);
+  Request bounces = request;
+  bounces.transport = &found;
+  bounces.limits.memory -= std::min(bounces.limits.memory, found.transport->bytes());
+  Request total = bounces;
+  bounces.wanted.totals = {};
+  total.wanted = {.totals = request.wanted.totals, .direct = std::move(direct)};
+  total.sink = nullptr;
+  Results results = solve(surface, bounces);
+  Results lit = solve(surface, total);
+  results.totals = std::move(lit.totals);
+  results.evidence.total_checks = lit.evidence.total_checks;
+  results.evidence.audits = lit.evidence.audits;
+  results.evidence.gathers = lit.evidence.gathers;
+  results.evidence.refined = lit.evidence.refined;
+  results.evidence.sky_rmse = lit.evidence.sky_rmse;
+  results.evidence.seconds.bounces += lit.evidence.seconds.bounces;
+  results.evidence.seconds.check += lit.evidence.seconds.check;
+  return results;
+}
+
 /// What the figure of the curves shows: them, and a study of the relief.
 CurvePlotInput curve_plot(const SimulateOptions& options, const Surface& surface,
                           const std::vector<BounceCurves>& curves, const Watch& watch) {
@@ -80,10 +107,28 @@ CurvePlotInput curve_plot(const SimulateOptions& options, const Surface& surface
           .title = printable(options.map.path.filename())};
 }
 
+/// What sends the first light, where that is no even sky; notes it.
+DirectLight find_light(const SimulateOptions& options, const Surface& surface, Simulation& simulation,
+                       const Watch& watch) {
+  DirectLight light = find_direct_light(options.light, surface,
+                                        {.error = options.visibility.error.value_or(LightLimits{}.error),
+                                         .seed = options.run.seed,
+                                         .memory = options.run.memory,
+                                         .watch = watch});
+  simulation.light = light.description;
+  simulation.light_rmse = light.rmse;
+  return light;
+}
+
+std::vector<Map> to_maps(const std::vector<TexelVector>& channels, const Surface& surface) {
+  std::vector<Map> maps;
+  for (const TexelVector& values : channels) maps.push_back(to_map(values, surface));
+  return maps;
+}
+
 void write_maps(const MapFolder& output, const Surface& surface, const Results& results,
                 const SimulationSink& sink) {
-  std::vector<Map> totals;
-  for (const TexelVector& values : results.totals[0]) totals.push_back(to_map(values, surface));
+  const std::vector<Map> totals = to_maps(results.totals[0], surface);
   write_occlusion(output, results);
   write_totals(output, totals);
   write_pictures(output.folder, surface, results, sink.first(), totals);
@@ -93,6 +138,7 @@ void write_maps(const MapFolder& output, const Surface& surface, const Results& 
 
 void check_simulate_options(const SimulateOptions& options) {
   check_visibility_options(options.visibility);
+  check_light_options(options.light);
   const bool has_links = options.visibility.by_rays() || options.visibility.error == 0.0;
   if (options.save_links && !has_links)
     throw UsageError("save-links", "", "needs --visibility rays or --error 0: horizon walks store no links");
@@ -129,12 +175,16 @@ Simulation simulate_map(const SimulateOptions& options, Plots& plots, const Watc
   seconds.load = lap.lap();
 
   const MapFolder output{.folder = folder, .place = loaded.place};
+  const DirectLight light = find_light(options, surface, simulation, watch);
+  seconds.light = lap.lap();
+
   SimulationSink sink(surface, albedo, options, output);
   const Results results = name_errors(options.map.path, [&] {
     Request request = make_request(options, albedo, watch);
     request.limits.memory = memory_to_solve(options, surface, albedo);
     request.sink = &sink;
-    return solve(surface, request);
+    return light.channels.empty() ? solve(surface, request)
+                                  : solve_with_light(surface, request, light.channels);
   });
   simulation.evidence = results.evidence;
   for (const std::string& fault : find_faults(results.evidence)) simulation.warnings.push_back({fault});
@@ -149,6 +199,7 @@ Simulation simulate_map(const SimulateOptions& options, Plots& plots, const Watc
   }
   seconds.curves = results.evidence.seconds.sink + lap.lap();
   write_maps(output, surface, results, sink);
+  if (!light.channels.empty()) write_direct(output, to_maps(light.channels, surface));
   seconds.output = lap.lap();
   seconds.total = total.lap();
   simulation.files = folder.written();

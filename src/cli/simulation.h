@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/albedo.h"
+#include "cli/light_options.h"
 #include "cli/map_options.h"
 #include "cli/plots.h"
 #include "cli/visibility_options.h"
@@ -29,6 +30,7 @@ struct SimulateOptions {
   int bounces = 20;
   int bins = 100;
   std::string albedo = "0.5";
+  LightOptions light = {};  ///< of the total; bounces and curves are those of an even sky
   bool save_bounces = false;
   bool save_links = false;
   std::string obscurance;        ///< a distance, up to which occluders count; empty: it is not asked for
@@ -38,6 +40,7 @@ struct SimulateOptions {
 /// Seconds that each step took beside the solution's own.
 struct StepTimes {
   double load = 0;
+  double light = 0;   ///< finding a light of one's own
   double curves = 0;  ///< binning, the curves' table, the study of the relief
   double output = 0;  ///< maps, plots and pictures
   double total = 0;
@@ -49,6 +52,8 @@ struct Simulation {
   int width = 0;  ///< of the map, in texels
   int height = 0;
   Evidence evidence;
+  std::string light;  ///< of the total, in words; empty: an even sky's
+  double light_rmse = 0;
   std::vector<Warning> warnings;  ///< of the map, and of an error that was missed
   StepTimes seconds;
   std::vector<std::string> removed;  ///< files of an earlier result

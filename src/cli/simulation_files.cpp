@@ -44,12 +44,14 @@ std::vector<std::string> simulation_file_names(int bounces) {
   std::vector<std::string> names{"ambient_occlusion.exr",
                                  "sky_view_factor.exr",
                                  "irradiance_total.exr",
+                                 "irradiance_direct.exr",
                                  "links.npz",
                                  "obscurance.exr",
                                  "ambient_transfer.exr",
                                  "ambient_occlusion.tif",
                                  "sky_view_factor.tif",
                                  "irradiance_total.tif",
+                                 "irradiance_direct.tif",
                                  "obscurance.tif",
                                  "ambient_transfer.tif",
                                  "curves.csv",
@@ -75,6 +77,11 @@ void write_map(const MapFolder& output, const std::string& name, const Map& map,
 void write_totals(const MapFolder& output, const std::vector<Map>& totals) {
   write_channels(output, "irradiance_total", pointers_to(totals),
                  "E / pi of all bounces, at the albedo given");
+}
+
+void write_direct(const MapFolder& output, const std::vector<Map>& direct) {
+  write_channels(output, "irradiance_direct", pointers_to(direct),
+                 "E / pi of the first light, before any bounce");
 }
 
 void write_transfer(const MapFolder& output, const AmbientTransfer& found) {

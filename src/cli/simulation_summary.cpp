@@ -18,8 +18,12 @@ void write_summary(const std::filesystem::path& path, const SimulateOptions& opt
   summary["bounces"] = options.bounces;
   summary["albedo"] = albedo.varying.empty() ? nlohmann::ordered_json(albedo.constant)
                                              : nlohmann::ordered_json(options.albedo);
+  if (!simulation.light.empty()) {
+    summary["light"] = {{"of_total", simulation.light}, {"direct_rmse", simulation.light_rmse}};
+  }
   nlohmann::ordered_json& times = summary["time_s"] = describe_times(evidence.seconds);
   times["load"] = simulation.seconds.load;
+  if (!simulation.light.empty()) times["light"] = simulation.seconds.light;
   times["curves"] = simulation.seconds.curves;
   times["output"] = simulation.seconds.output;
   times["total"] = simulation.seconds.total;

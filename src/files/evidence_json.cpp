@@ -105,6 +105,12 @@ Json describe_evidence(const Evidence& evidence) {
   Json json;
   json["visibility"] = describe_visibility(evidence);
   if (evidence.has_links) json["links"] = {{"count", evidence.links}, {"bytes", evidence.link_bytes}};
+  for (const EnergyAudit& audit : evidence.audits) {
+    json["energy_audit"].push_back({{"received_over_pi", audit.received},
+                                    {"absorbed", audit.absorbed},
+                                    {"escaped", audit.escaped},
+                                    {"imbalance", audit.imbalance}});
+  }
   if (!evidence.bounce_rmse.empty()) json["bounces_rmse"] = evidence.bounce_rmse;
   if (evidence.energy) json["energy"] = describe_energy(evidence);
   if (evidence.seen) {

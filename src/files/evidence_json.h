@@ -18,7 +18,7 @@ namespace heightlight {
 nlohmann::ordered_json describe_map(const std::filesystem::path& path, const std::string& sha256,
                                     const Surface& surface);
 
-/// The keys `visibility`, `links`, `energy` and `seen`, as far as the evidence has them.
+/// The keys `visibility`, `links`, `energy_audit`, `energy` and `seen`, as far as the evidence has them.
 nlohmann::ordered_json describe_evidence(const Evidence& evidence);
 
 /// `files`: name, size and checksum of each.

@@ -223,7 +223,7 @@ TEST_CASE("what is received is absorbed or escapes", "[solve]") {
   request.wanted = {.totals = {{.constant = {0.2}}, {.constant = {0.8}}, {.constant = {1}}}};
   const std::vector<EnergyAudit> audits = solve(surface, request).evidence.audits;
   REQUIRE(audits.size() == 3);
-  for (const EnergyAudit& audit : audits) CHECK(std::abs(audit.imbalance) < 5e-4);  // discretisation: a sum over texels
+  for (const EnergyAudit& audit : audits) CHECK(std::abs(audit.imbalance) < 2e-3);  // discretisation
   CHECK(audits[2].absorbed == 0);
   CHECK(std::abs(audits[2].imbalance) < 1e-7);  // all is 1 there, which is the solver's tolerance
   CHECK(audits[0].absorbed > 0.7);

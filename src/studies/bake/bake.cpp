@@ -190,6 +190,7 @@ const std::vector<MaterialMapName>& material_maps() {
   static const std::vector<MaterialMapName> kMaps = with_definitions(
       {{MaterialMap::ao, "ao", "ambient occlusion, 1 = open"},
        {MaterialMap::multibounce, "multibounce", "irradiance of all bounces at the albedo, 1 = unoccluded"},
+       {MaterialMap::direct, "direct", "direct irradiance of --sun, --sky or --direct, before any bounce"},
        {MaterialMap::bent_normal, "bent-normal", "mean direction of the sky that is seen"},
        {MaterialMap::bent_cone, "bent-cone", "the same, with the half-angle of a cone in alpha"},
        {MaterialMap::normal, "normal", "normal of the surface"},
@@ -246,6 +247,13 @@ void check_bake_options(const BakeOptions& options) {
   }
   if (options.dither && options.depth != TextureDepth::uint8) {
     throw UsageError("dither", "", "only a depth of 8 bits needs it");
+  }
+  if (is_wanted(options, MaterialMap::direct) && !options.find_light) {
+    throw UsageError("maps", "",
+                     "direct wants a light: a sun, a sky, or one of your own; an even sky's is ao");
+  }
+  if (is_wanted(options, MaterialMap::ao_n) && options.find_light) {
+    throw UsageError("maps", "", "ao-n is of an even sky; bake it without a light of your own");
   }
   if (options.reach) check_reach(*options.reach);
   if (!(options.error > 0) || options.error > 1) {

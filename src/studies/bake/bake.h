@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,7 +20,8 @@ namespace heightlight {
 /// integers, NaN in files of floats.
 enum class MaterialMap {
   ao,           ///< A (or α): share of the sky that is seen; 1 = open
-  multibounce,  ///< E/π of all bounces under a sky of radiance 1, at the albedo; 1 = unoccluded
+  multibounce,  ///< E/π of all bounces, at the albedo, under a sky of radiance 1, or BakeOptions::find_light
+  direct,       ///< E₀/π of that light, before any bounce
   bent_normal,  ///< unit, along ∫ V ω cosθ dω
   bent_cone,    ///< the same, with the half-angle of a cone of unoccluded directions
   normal,       ///< unit normal of the surface
@@ -66,6 +68,13 @@ struct PackedChannel {
   double constant = 0;  ///< where there is no map, in [0, 1]
 };
 
+/// Light that is no even sky's.
+struct BakedLight {
+  std::vector<TexelVector> channels;  ///< E₀/π: one, or red, green and blue
+  std::string description;
+  double rmse = 0;  ///< of it, where that was found
+};
+
 struct BakeOptions {
   std::vector<MaterialMap> maps;      ///< each in a file of its own
   std::vector<PackedChannel> packed;  ///< one to four channels of one more file; none where empty
@@ -86,10 +95,12 @@ struct BakeOptions {
   int azimuths = 0;              ///< > 0: those of the sky, fixed
   std::uint64_t seed = 1;        ///< of pilot, check and dither
   std::uint64_t memory = ~0ULL;  ///< bytes that all of it may take
-  Watch watch = {};              ///< of the solution
-  std::string projection = {};   ///< text of the .prj that goes beside each Esri grid; empty: none does
-  std::string request = {};      ///< what was asked for, as the asker knows it again; stands in the sidecar
-  std::string surface = {};      ///< likewise the heights alone: earlier maps of the same ones stay
+  /// Finds what sends the first light of multibounce and direct; empty: an even sky does.
+  std::function<BakedLight(const Surface&)> find_light = {};
+  Watch watch = {};             ///< of the solution
+  std::string projection = {};  ///< text of the .prj that goes beside each Esri grid; empty: none does
+  std::string request = {};     ///< what was asked for, as the asker knows it again; stands in the sidecar
+  std::string surface = {};     ///< likewise the heights alone: earlier maps of the same ones stay
 };
 
 /// Names of all files that baking writes for a map of that name, the sidecar last.

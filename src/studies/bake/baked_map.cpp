@@ -9,6 +9,7 @@
 #include "bake/bent_cone.h"
 #include "base/digits.h"
 #include "base/texel_algebra.h"
+#include "heightlight/error.h"
 #include "heightlight/forms.h"
 #include "visibility/sky_harmonics.h"
 
@@ -62,14 +63,29 @@ BakedChannel cone_angle(const Material& material, bool by_spread) {
           }};
 }
 
-std::vector<BakedChannel> totals(const Material& material, std::size_t count) {
+/// E/π, in colours where it has them.
+std::vector<BakedChannel> irradiance(
+    std::size_t count, const std::function<float(std::size_t channel, std::size_t i)>& value_at) {
   static constexpr const char* kColour[] = {"E/pi, red", "E/pi, green", "E/pi, blue"};
   std::vector<BakedChannel> channels;
   for (std::size_t c = 0; c < count; ++c) {
     channels.push_back({count == 1 ? "E/pi" : kColour[c], "1", 0, 1, 1,
-                        [&material, c](std::size_t i) { return material.totals[c].values[i]; }});
+                        [value_at, c](std::size_t i) { return value_at(c, i); }});
   }
   return channels;
+}
+
+std::vector<BakedChannel> totals(const Material& material) {
+  return irradiance(material.totals.size(),
+                    [&material](std::size_t c, std::size_t i) { return material.totals[c].values[i]; });
+}
+
+std::vector<BakedChannel> direct(const Material& material) {
+  return irradiance(material.light.channels.size(), [&material](std::size_t c, std::size_t i) {
+    const bool present = !std::isnan(material.surface->map.height.values[i]);
+    return present ? static_cast<float>(material.light.channels[c][i])
+                   : std::numeric_limits<float>::quiet_NaN();
+  });
 }
 
 std::vector<BakedChannel> horizons(const Material& material, const BakeOptions& options) {
@@ -143,7 +159,12 @@ const char* definition(MaterialMap map, const BakeOptions& options) {
                  : "ambient occlusion, cosine weighted (sky view factor): (1/pi) int V cos(theta) dw; 1 = "
                    "open";
     case MaterialMap::multibounce:
-      return "irradiance of all bounces over pi, under a sky of radiance 1, at the albedo; 1 = unoccluded";
+      return options.find_light
+                 ? "irradiance of all bounces over pi, under the light of the sidecar, at the albedo"
+                 : "irradiance of all bounces over pi, under a sky of radiance 1, at the albedo; 1 = "
+                   "unoccluded";
+    case MaterialMap::direct:
+      return "irradiance over pi of the sidecar's light, before any bounce";
     case MaterialMap::bent_normal:
       return options.bent_length
                  ? "bent normal, cosine weighted: unit vector along b = (1/pi) int V w cos(theta) dw; alpha: "
@@ -251,7 +272,8 @@ int component_count(MaterialMap map, const BakeOptions& options) {
     case MaterialMap::height:
       return 1;
     case MaterialMap::multibounce:
-      return static_cast<int>(options.albedo.channels());
+    case MaterialMap::direct:
+      return options.find_light ? 3 : static_cast<int>(options.albedo.channels());
     case MaterialMap::bent_normal:
       return options.bent_length ? 4 : 3;
     case MaterialMap::bent_cone:
@@ -277,7 +299,9 @@ std::vector<BakedChannel> baked_channels(MaterialMap map, const Material& materi
       return {options.uniform_ao ? share("ambient occlusion", material.results.ambient_occlusion)
                                  : share("sky view factor", material.results.sky_view_factor)};
     case MaterialMap::multibounce:
-      return totals(material, options.albedo.channels());
+      return totals(material);
+    case MaterialMap::direct:
+      return direct(material);
     case MaterialMap::bent_normal:
       channels = bent_normal_channels(material, options.y_down);
       if (options.bent_length) channels.push_back(bent_length(material));
@@ -314,8 +338,11 @@ std::vector<BakedTexture> baked_textures(const Material& material, const BakeOpt
       packed.channels.push_back(constant(channel.constant));
       continue;
     }
-    packed.channels.push_back(
-        baked_channels(*channel.map, material, options)[static_cast<std::size_t>(channel.component)]);
+    const std::vector<BakedChannel> channels = baked_channels(*channel.map, material, options);
+    if (channel.component >= static_cast<int>(channels.size()))
+      throw UsageError("pack", "",
+                       std::string(to_string(*channel.map)) + " has one component under this light");
+    packed.channels.push_back(channels[static_cast<std::size_t>(channel.component)]);
     packed.channels.back().quantity.insert(0, std::string(to_string(*channel.map)) + ": ");
   }
   textures.push_back(std::move(packed));

@@ -30,7 +30,7 @@ struct BakedTexture {
 std::vector<BakedChannel> baked_channels(MaterialMap map, const Material& material,
                                          const BakeOptions& options);
 
-/// Components that a map has, without finding it.
+/// Components that a map has, without finding it; under a light of one's own, as many as it may have.
 int component_count(MaterialMap map, const BakeOptions& options);
 
 /// All files of a material. PNG holds four channels at most: maps that have more are spread over several

@@ -73,9 +73,14 @@ bool is_wanted(const BakeOptions& options, MaterialMap map) {
 }
 
 Material find_material(const Surface& surface, const BakeOptions& options) {
-  const Request request = make_request(options, surface);
+  Request request = make_request(options, surface);
   Material material;
   material.surface = &surface;
+  const bool is_lit = is_wanted(options, MaterialMap::multibounce) || is_wanted(options, MaterialMap::direct);
+  if (options.find_light && is_lit) {
+    material.light = options.find_light(surface);
+    if (!request.wanted.totals.empty()) request.wanted.direct = material.light.channels;
+  }
   material.results = solve(surface, request);
   Stopwatch watch;
   if (request.wanted.seen) material.model_errors = judge_model(material.results);

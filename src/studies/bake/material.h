@@ -13,7 +13,8 @@ namespace heightlight {
 struct Material {
   const Surface* surface = nullptr;
   Results results;          ///< the sky as far as the reach; horizons in the axes of the files
-  std::vector<Map> totals;  ///< E/π, per channel of the albedo
+  std::vector<Map> totals;  ///< E/π, per channel of the albedo or of the light
+  BakedLight light;         ///< without channels where it is an even sky's
   std::vector<ModelError> model_errors;
 };
 

@@ -144,6 +144,9 @@ void write_sidecar(const std::filesystem::path& path, const BakeOptions& options
   json["reach"] = describe_reach(options);
   if (is_wanted(options, MaterialMap::multibounce)) {
     json["albedo"] = describe_albedo(options.albedo);
+    if (options.find_light) {
+      json["light"] = {{"of", material.light.description}, {"direct_rmse", material.light.rmse}};
+    }
     json["bounces"] = {{"gathered", evidence.bounces}, {"then", "the rest, to convergence"}};
   }
   json.update(describe_evidence(evidence));
