@@ -139,6 +139,33 @@ TEST_CASE("horizons of the lakes match topocalc's where those are complete", "[v
   CHECK(static_cast<double>(within) / count >= 0.85);
 }
 
+TEST_CASE("the lakes' horizons by the compass are topocalc's, side by side",
+          "[visibility][shared][terrain]") {
+  const auto lakes = load_terrain("terrain/lakes_dem.tif", 50);
+  if (!lakes) return;
+  const Surface surface = build_surface(*lakes);
+  Request request;
+  request.wanted.horizon_rad = equal_azimuths(4, AzimuthConvention::north);
+  const Results results = solve(surface, request);
+  const std::vector<std::string> sides{"north", "east", "south", "west"};
+  for (std::size_t ours = 0; ours < sides.size(); ++ours) {
+    for (std::size_t theirs = 0; theirs < sides.size(); ++theirs) {
+      const auto reference = read_reference("lakes_horizon_" + sides[theirs] + "_deg.tif");
+      if (!reference) return;
+      std::vector<double> difference;
+      for (std::size_t i = 0; i < reference->size(); ++i) {
+        const double degrees = std::max(0.0, double{results.horizons[ours].values[i]}) * kDegrees;
+        difference.push_back(std::fabs(degrees - double{reference->values[i]}));
+      }
+      const auto middle = difference.begin() + static_cast<std::ptrdiff_t>(difference.size() / 2);
+      std::nth_element(difference.begin(), middle, difference.end());
+      INFO("toward " << sides[ours] << ", theirs toward " << sides[theirs]);
+      if (ours == theirs) CHECK(*middle < 0.2);  // discretisation: blocks; theirs counts whole metres
+      if (ours != theirs) CHECK(*middle > 1);
+    }
+  }
+}
+
 /// Cosine-weighted sky view factor of a tilted surface from horizons in the azimuths 2π k/K, without clamping
 /// them to the tangent plane: (1/π) Σ (2π/K) ∫_h^{π/2} (n·ω) cosθ dθ. Where a horizon is below the tangent
 /// plane it takes the negative cosines in between along.

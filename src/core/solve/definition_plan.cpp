@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 
 #include "base/hash.h"
 #include "base/parallel.h"
@@ -10,15 +9,23 @@
 namespace heightlight {
 namespace {
 
+/// Receivers of the trial: some of each of so many blocks.
 constexpr int kBlocks = 64;
 constexpr int kBlockSide = WalkTile::kWideGroup;
 constexpr int kPerBlock = 4;
+
+/// Azimuths along which they are walked exactly, and by which power of their number the error falls: that of
+/// horizons with jumps, as for A.
 constexpr int kTriedAzimuths = 48;
-constexpr double kAzimuthOrder = 1.5;  // of horizons with jumps, as for A
+constexpr double kAzimuthOrder = 1.5;
 constexpr int kFewestAzimuths = 8;
 constexpr int kMostAzimuths = 720;
+
+/// Of the error wanted, what is aimed at, since few receivers are not the map: with this, what was reached
+/// was 0.04 to 1.01 times the error wanted on a DEM, a DSM, bricks and fractal ground. And of what is aimed
+/// at, the share that sampling may take.
+constexpr double kAim = 0.8;
 constexpr double kSamplingShare = 0.8;
-constexpr double kAim = 0.8;  // of the error wanted: what is found on few receivers is not what the map has
 
 /// A receiver that is walked exactly, and its means by all azimuths and by every other one.
 struct TrialReceiver {

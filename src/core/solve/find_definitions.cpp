@@ -1,8 +1,5 @@
-#include <algorithm>
 #include <utility>
 
-#include "base/stopwatch.h"
-#include "base/texels.h"
 #include "solve/definitions.h"
 #include "solve/reference_sky.h"
 

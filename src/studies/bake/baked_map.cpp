@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "bake/bent_cone.h"
+#include "bake/map_text.h"
 #include "base/digits.h"
 #include "base/texel_algebra.h"
 #include "heightlight/error.h"
@@ -150,69 +151,6 @@ BakedChannel height(const Material& material) {
           }};
 }
 
-const char* definition(MaterialMap map, const BakeOptions& options) {
-  switch (map) {
-    case MaterialMap::ao:
-      return options.uniform_ao
-                 ? "ambient occlusion: share of the tangent hemisphere's solid angle that sees the sky, "
-                   "(1/2pi) int V dw; 1 = open"
-                 : "ambient occlusion, cosine weighted (sky view factor): (1/pi) int V cos(theta) dw; 1 = "
-                   "open";
-    case MaterialMap::multibounce:
-      return options.find_light
-                 ? "irradiance of all bounces over pi, under the light of the sidecar, at the albedo"
-                 : "irradiance of all bounces over pi, under a sky of radiance 1, at the albedo; 1 = "
-                   "unoccluded";
-    case MaterialMap::direct:
-      return "irradiance over pi of the sidecar's light, before any bounce";
-    case MaterialMap::bent_normal:
-      return options.bent_length
-                 ? "bent normal, cosine weighted: unit vector along b = (1/pi) int V w cos(theta) dw; alpha: "
-                   "its length 3/2 |b|, 1 = open"
-                 : "bent normal, cosine weighted: unit vector along int V w cos(theta) dw";
-    case MaterialMap::bent_cone:
-      return "bent cone: axis along the cosine-weighted bent normal; alpha: half-angle by openness, "
-             "acos sqrt(1 - A), A = (1/pi) int V cos(theta) dw";
-    case MaterialMap::normal:
-      return "unit normal of the surface, from central differences";
-    case MaterialMap::ao_n:
-      return kStoredPairMeaning;
-    case MaterialMap::horizon:
-      return "elevation of the horizon above the horizontal (at least the tangent plane's), toward azimuths "
-             "that count as the channels say";
-    case MaterialMap::sh:
-      return "(1/pi) int V Ylm cos(theta) dw over the orthonormal real spherical harmonics (no "
-             "Condon-Shortley "
-             "phase, pole z): E/pi under a sky is the dot product with the sky's coefficients";
-    case MaterialMap::height:
-      return "height above the lowest sample, over the relief";
-    default:
-      return facts_of(*definition_of(map)).formula;
-  }
-}
-
-/// Whether a map is of what the sky sends, and so of what lies below the horizontal.
-bool is_lit(MaterialMap map) {
-  switch (map) {
-    case MaterialMap::normal:
-    case MaterialMap::height:
-    case MaterialMap::horizon:
-      return false;
-    default:
-      return !definition_of(map) || map == MaterialMap::svf_tilted || map == MaterialMap::terrain_view_factor;
-  }
-}
-
-/// What a file tells of its map.
-std::string file_text(MaterialMap map, const BakeOptions& options) {
-  std::string text = definition(map, options);
-  if (definition_of(map)) text.insert(0, std::string(to_string(map)) + ": ");
-  if (definition_of(map) && !is_lit(map))
-    text += "; h is the elevation of the horizon, means are over azimuths";
-  const bool dark = is_lit(map) && options.below == BelowHorizontal::ground;
-  return dark ? text + "; nothing shines below the horizontal" : text;
-}
-
 /// A value for every texel, of no map.
 BakedChannel constant(double value) {
   return {"constant", "1", 0, 1, value, [value](std::size_t) { return static_cast<float>(value); }};
@@ -246,7 +184,7 @@ void add_textures(MaterialMap map, const Material& material, const BakeOptions& 
   const std::vector<BakedChannel> channels = baked_channels(map, material, options);
   const std::vector<std::string> suffixes = suffixes_of(map, options);
   if (map == MaterialMap::bent_cone) {
-    textures.push_back({suffixes[0], file_text(map, options), {channels.begin(), channels.begin() + 4}});
+    textures.push_back({suffixes[0], map_text(map, options), {channels.begin(), channels.begin() + 4}});
     textures.push_back({suffixes[1],
                         "bent cone, half-angle by spread: the cone about the normal whose "
                         "cosine-weighted directions have a mean of the same length",
@@ -256,7 +194,7 @@ void add_textures(MaterialMap map, const Material& material, const BakeOptions& 
   const auto parts = split(static_cast<int>(channels.size()), options.format);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     textures.push_back({suffixes[i],
-                        file_text(map, options),
+                        map_text(map, options),
                         {channels.begin() + parts[i].first, channels.begin() + parts[i].second}});
     if (options.format == TextureFormat::png && textures.back().channels.size() == 2) {
       textures.back().channels.push_back(constant(0));

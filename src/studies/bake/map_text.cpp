@@ -1,0 +1,75 @@
+#include "bake/map_text.h"
+
+#include "heightlight/forms.h"
+
+namespace heightlight {
+namespace {
+
+const char* definition(MaterialMap map, const BakeOptions& options) {
+  switch (map) {
+    case MaterialMap::ao:
+      return options.uniform_ao
+                 ? "ambient occlusion: share of the tangent hemisphere's solid angle that sees the sky, "
+                   "(1/2pi) int V dw; 1 = open"
+                 : "ambient occlusion, cosine weighted (sky view factor): (1/pi) int V cos(theta) dw; 1 = "
+                   "open";
+    case MaterialMap::multibounce:
+      return options.find_light
+                 ? "irradiance of all bounces over pi, under the light of the sidecar, at the albedo"
+                 : "irradiance of all bounces over pi, under a sky of radiance 1, at the albedo; 1 = "
+                   "unoccluded";
+    case MaterialMap::direct:
+      return "irradiance over pi of the sidecar's light, before any bounce";
+    case MaterialMap::bent_normal:
+      return options.bent_length
+                 ? "bent normal, cosine weighted: unit vector along b = (1/pi) int V w cos(theta) dw; alpha: "
+                   "its length 3/2 |b|, 1 = open"
+                 : "bent normal, cosine weighted: unit vector along int V w cos(theta) dw";
+    case MaterialMap::bent_cone:
+      return "bent cone: axis along the cosine-weighted bent normal; alpha: half-angle by openness, "
+             "acos sqrt(1 - A), A = (1/pi) int V cos(theta) dw";
+    case MaterialMap::normal:
+      return "unit normal of the surface, from central differences";
+    case MaterialMap::ao_n:
+      return kStoredPairMeaning;
+    case MaterialMap::horizon:
+      return "elevation of the horizon above the horizontal (at least the tangent plane's), toward azimuths "
+             "that count as the channels say";
+    case MaterialMap::sh:
+      return "(1/pi) int V Ylm cos(theta) dw over the orthonormal real spherical harmonics (no "
+             "Condon-Shortley "
+             "phase, pole z): E/pi under a sky is the dot product with the sky's coefficients";
+    case MaterialMap::height:
+      return "height above the lowest sample, over the relief";
+    default:
+      return facts_of(*definition_of(map)).formula;
+  }
+}
+
+/// Whether a map is of what the sky sends, and so of what lies below the horizontal.
+bool is_lit(MaterialMap map, const BakeOptions& options) {
+  switch (map) {
+    case MaterialMap::multibounce:
+    case MaterialMap::direct:
+      return !options.find_light;
+    case MaterialMap::normal:
+    case MaterialMap::height:
+    case MaterialMap::horizon:
+      return false;
+    default:
+      return !definition_of(map) || map == MaterialMap::svf_tilted || map == MaterialMap::terrain_view_factor;
+  }
+}
+
+}  // namespace
+
+std::string map_text(MaterialMap map, const BakeOptions& options) {
+  std::string text = definition(map, options);
+  if (definition_of(map)) text.insert(0, std::string(to_string(map)) + ": ");
+  if (definition_of(map) && !is_lit(map, options))
+    text += "; h is the elevation of the horizon, means are over azimuths";
+  const bool dark = is_lit(map, options) && options.below == BelowHorizontal::ground;
+  return dark ? text + "; nothing shines below the horizontal" : text;
+}
+
+}  // namespace heightlight
