@@ -22,7 +22,7 @@ constexpr int kFewestAzimuths = 8;
 constexpr int kMostAzimuths = 720;
 
 /// Of the error wanted, what is aimed at, since few receivers are not the map: with this, what was reached
-/// was 0.04 to 1.01 times the error wanted on a DEM, a DSM, bricks and fractal ground. And of what is aimed
+/// was 0.08 to 1.08 times the error wanted on a DEM, a DSM, bricks and fractal ground. And of what is aimed
 /// at, the share that sampling may take.
 constexpr double kAim = 0.8;
 constexpr double kSamplingShare = 0.8;
