@@ -24,7 +24,7 @@ double add_seen(Terrain in, SeenSkyViewFactor<double> seen) {
 
 constexpr const char* kDozier = "Dozier and Frew 1990, IEEE TGRS 28(5)";
 constexpr const char* kSirguey =
-    "Sirguey 2009, IJRS 30(4), as Lamare et al. 2020 (The Cryosphere 14) program it";
+    "Sirguey 2009, IJRS 30(4), as the program of Lamare, Dumont and Picard has it, without its shadows";
 
 }  // namespace
 
