@@ -1,5 +1,7 @@
 #pragma once
 
+#include <numbers>
+
 #include "heightlight/image.h"
 #include "heightlight/surface.h"
 #include "heightlight/watch.h"
@@ -10,7 +12,8 @@ namespace heightlight {
 struct Sun {
   double azimuth_rad = 0;         ///< of its middle, counterclockwise from x
   double elevation_rad = 0;       ///< of its middle above the horizontal, in [0, π/2]
-  double diameter_rad = 0.00930;  ///< 0.533 degrees, the sun's in the mean; in [0, 0.1], 0: a point
+  /// The sun's own in the mean is 0.533 degrees; in [0, 0.1], 0: a point.
+  double diameter_rad = 0.533 * std::numbers::pi / 180;
 };
 
 /// Throws UsageError naming the quantity: a sun that stands below the horizontal or beyond the zenith, or a

@@ -20,6 +20,7 @@ from ._comparing import Comparison, compare
 from ._dataset import Dataset, Run, dataset, fit
 from ._heights import Heightmap, read, read_sky, shapes, synth
 from ._judging import Judgement, judge
+from ._light import sky_irradiance, sun_irradiance
 from ._native import version as __version__
 from ._operator import Curves, Operator, operator
 from ._sky import Sky, definitions, sky
@@ -49,6 +50,8 @@ __all__ = [
     "shader",
     "shapes",
     "sky",
+    "sky_irradiance",
+    "sun_irradiance",
     "synth",
 ]
 

@@ -109,13 +109,14 @@ class Operator:
 
         Args:
             albedo: one number, three (red, green, blue), an array (rows, columns), or (rows, columns, 3); in [0, 1].
-            direct: E₀/π of light of one's own, (rows, columns), such as the sun's; else the sky's.
+            direct: E₀/π of light of one's own, (rows, columns) or (rows, columns, 3), as `sun_irradiance` and
+                `sky_irradiance` find it; else an even sky's.
 
         Returns (rows, columns) float64, or (rows, columns, 3) for three channels. What `simulate` writes, before
         it becomes float32.
         """
         constant, varying = split_albedo(albedo, self.shape)
-        light = None if direct is None else numbers("direct", direct)
+        light = [] if direct is None else split_direct(direct)
         totals, self._evidence = self._native.solve(constant, varying, light)
         return totals[0] if len(totals) == 1 else np.stack(totals, axis=-1)
 
@@ -143,6 +144,14 @@ class Operator:
             (size, size),
             matvec=lambda x: x.ravel() - self._native.gather((reflectance * x.ravel()).reshape(self.shape)).ravel(),
         )
+
+
+def split_direct(direct: Any) -> list[np.ndarray]:
+    """Maps per channel."""
+    values = numbers("direct", direct)
+    if values.ndim == 3:
+        return [np.ascontiguousarray(values[:, :, c]) for c in range(values.shape[2])]
+    return [values]
 
 
 def split_albedo(albedo: Any, shape: tuple[int, int]) -> tuple[list[float], list[np.ndarray]]:

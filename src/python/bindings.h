@@ -38,6 +38,7 @@ using SharedSurface = std::shared_ptr<const Surface>;
 // Each adds its part to the module.
 void add_surface(py::module_& module);
 void add_sky(py::module_& module);
+void add_light(py::module_& module);
 void add_operator(py::module_& module);
 void add_forms(py::module_& module);
 void add_files(py::module_& module);

@@ -78,6 +78,7 @@ PYBIND11_MODULE(_native, module) {
            py::arg("threads"), py::arg("memory"), py::arg("progress"));
   add_surface(module);
   add_sky(module);
+  add_light(module);
   add_operator(module);
   add_forms(module);
   add_files(module);

@@ -80,7 +80,7 @@ class Operator {
 
   /// (E/π per channel, evidence). `varying`: arrays per channel, where `constant` is empty.
   py::tuple solve_total(const std::vector<double>& constant, const std::vector<Array<double>>& varying,
-                        const std::optional<Array<double>>& direct) const {
+                        const std::vector<Array<double>>& direct) const {
     Request request = lent_request();
     Albedo& albedo = request.wanted.totals.emplace_back();
     albedo.constant = constant;
@@ -88,9 +88,9 @@ class Operator {
       check_shape(channel, "albedo", surface_->height(), surface_->width());
       albedo.varying.push_back(read_texels(channel));
     }
-    if (direct) {
-      check_shape(*direct, "direct", surface_->height(), surface_->width());
-      request.wanted.direct = {read_texels(*direct)};
+    for (const Array<double>& channel : direct) {
+      check_shape(channel, "direct", surface_->height(), surface_->width());
+      request.wanted.direct.push_back(read_texels(channel));
     }
     Results results = run(request);
     py::list channels;
