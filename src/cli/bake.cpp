@@ -39,7 +39,6 @@ void check_batch(const BakeCommand& command, const BakeInputs& listed, const Inp
   for (const BakeInput& input : listed.inputs) {
     BakeOptions options = options_for(command, input.path);
     for (const std::string& name : baked_files(input.name, options)) guard.check(command.folder / name);
-    if (has_own_light(command.light)) options.find_light = [](const Surface&) { return BakedLight{}; };
     options.albedo.constant.resize(3);  // how many channels it has, a file may have to tell
     check_bake_options(options);
   }
@@ -57,7 +56,7 @@ BakeOutcome bake_file(const BakeCommand& command, const BakeInput& input, const 
     options.reach = Reach{.distance = parse_distance("max_distance", command.max_distance, width),
                           .falloff = falloff_named(command.falloff)};
   }
-  if (has_own_light(command.light)) {
+  if (options.light_channels > 0) {
     options.find_light = [&](const Surface& surface) {
       DirectLight light = find_direct_light(command.light, surface,
                                             {.error = options.error,

@@ -131,6 +131,16 @@ void check_light_options(const LightOptions& options) {
   for (const std::filesystem::path& path : light_files(options)) InputFile{path};
 }
 
+std::size_t count_light_channels(const LightOptions& options) {
+  for (const std::filesystem::path& path : light_files(options)) {
+    const InputFile file(path);
+    const FileFormat format = recognise_format(file);
+    if (!is_picture(format)) throw file.error("is no image of light");
+    if (count_channels(file, format) >= 3) return 3;
+  }
+  return 1;
+}
+
 std::string light_key(const LightOptions& options) {
   if (!has_own_light(options)) return "";
   std::string key = "sun " + options.sun + " sky " + (is_named_sky(options.sky) ? options.sky : "");
@@ -151,7 +161,9 @@ DirectLight find_direct_light(const LightOptions& options, const Surface& surfac
                                        90 - sun.azimuth_rad / kDegree, sun.elevation_rad / kDegree)};
   }
   if (!has_own_light(options)) return {};
-  return light_of_sky(options.sky, surface, limits);
+  DirectLight light = light_of_sky(options.sky, surface, limits);
+  light.channels.resize(count_light_channels(options), light.channels[0]);  // a grey one in a file of colours
+  return light;
 }
 
 }  // namespace heightlight

@@ -35,6 +35,9 @@ std::vector<std::filesystem::path> light_files(const LightOptions& options);
 /// Throws UsageError for what no map can be lit with, Error for a file that is not there.
 void check_light_options(const LightOptions& options);
 
+/// Channels that it will have, 1 or 3, by the headers of files. Throws Error naming one that cannot be read.
+std::size_t count_light_channels(const LightOptions& options);
+
 /// A light as one text that changes whenever the light does: with checksums of files in place of names; empty
 /// for an even sky. Throws Error naming a file that cannot be read.
 std::string light_key(const LightOptions& options);
@@ -49,7 +52,7 @@ struct LightLimits {
 
 /// Direct light of one's own, E₀/π per texel.
 struct DirectLight {
-  std::vector<TexelVector> channels;  ///< one, or red, green and blue; none of an even sky
+  std::vector<TexelVector> channels;  ///< as many as were counted; none of an even sky
   std::string description;            ///< "sun at 135, 30 degrees"
   double rmse = 0;                    ///< of a sky's, against exact horizons
 };

@@ -148,4 +148,12 @@ StoredImage read_image(const InputFile& file, FileFormat format, std::uint64_t m
   return image;
 }
 
+int count_channels(const InputFile& file, FileFormat format) {
+  StoredImage image;
+  check_before_opening(file, format, image);
+  OIIO::ImageSpec spec;
+  open_image(file, format, spec);
+  return spec.nchannels;
+}
+
 }  // namespace heightlight

@@ -50,4 +50,7 @@ constexpr std::uint64_t bytes_per_texel(std::uint64_t stored_bytes) {
   return sizeof(double) + (marked > kHeight ? marked : kHeight);
 }
 
+/// Channels of an image, from its header: of the first part of several. Throws Error likewise.
+int count_channels(const InputFile& file, FileFormat format);
+
 }  // namespace heightlight

@@ -248,11 +248,11 @@ void check_bake_options(const BakeOptions& options) {
   if (options.dither && options.depth != TextureDepth::uint8) {
     throw UsageError("dither", "", "only a depth of 8 bits needs it");
   }
-  if (is_wanted(options, MaterialMap::direct) && !options.find_light) {
+  if (is_wanted(options, MaterialMap::direct) && options.light_channels == 0) {
     throw UsageError("maps", "",
                      "direct wants a light: a sun, a sky, or one of your own; an even sky's is ao");
   }
-  if (is_wanted(options, MaterialMap::ao_n) && options.find_light) {
+  if (is_wanted(options, MaterialMap::ao_n) && options.light_channels > 0) {
     throw UsageError("maps", "", "ao-n is of an even sky; bake it without a light of your own");
   }
   if (options.reach) check_reach(*options.reach);

@@ -90,14 +90,14 @@ struct BakeOptions {
   BelowHorizontal below = BelowHorizontal::sky;  ///< of all maps of light; not with ao_n
   TextureFormat format = TextureFormat::png;
   TextureDepth depth = TextureDepth::uint16;
-  bool dither = false;           ///< blue noise instead of rounding; 8 bits only
-  double error = 0.002;          ///< RMSE wanted of A and of the total
-  int azimuths = 0;              ///< > 0: those of the sky, fixed
-  std::uint64_t seed = 1;        ///< of pilot, check and dither
-  std::uint64_t memory = ~0ULL;  ///< bytes that all of it may take
-  /// Finds what sends the first light of multibounce and direct; empty: an even sky does.
-  std::function<BakedLight(const Surface&)> find_light = {};
-  Watch watch = {};             ///< of the solution
+  bool dither = false;             ///< blue noise instead of rounding; 8 bits only
+  double error = 0.002;            ///< RMSE wanted of A and of the total
+  int azimuths = 0;                ///< > 0: those of the sky, fixed
+  std::uint64_t seed = 1;          ///< of pilot, check and dither
+  std::uint64_t memory = ~0ULL;    ///< bytes that all of it may take
+  std::size_t light_channels = 0;  ///< > 0: multibounce and direct are of another light than an even sky
+  std::function<BakedLight(const Surface&)> find_light = {};  ///< which this finds, with so many channels
+  Watch watch = {};                                           ///< of the solution
   std::string projection = {};  ///< text of the .prj that goes beside each Esri grid; empty: none does
   std::string request = {};     ///< what was asked for, as the asker knows it again; stands in the sidecar
   std::string surface = {};     ///< likewise the heights alone: earlier maps of the same ones stay

@@ -10,7 +10,6 @@
 #include "bake/map_text.h"
 #include "base/digits.h"
 #include "base/texel_algebra.h"
-#include "heightlight/error.h"
 #include "heightlight/forms.h"
 #include "visibility/sky_harmonics.h"
 
@@ -210,8 +209,9 @@ int component_count(MaterialMap map, const BakeOptions& options) {
     case MaterialMap::height:
       return 1;
     case MaterialMap::multibounce:
+      return static_cast<int>(std::max(options.albedo.channels(), options.light_channels));
     case MaterialMap::direct:
-      return options.find_light ? 3 : static_cast<int>(options.albedo.channels());
+      return static_cast<int>(options.light_channels);
     case MaterialMap::bent_normal:
       return options.bent_length ? 4 : 3;
     case MaterialMap::bent_cone:
@@ -276,11 +276,8 @@ std::vector<BakedTexture> baked_textures(const Material& material, const BakeOpt
       packed.channels.push_back(constant(channel.constant));
       continue;
     }
-    const std::vector<BakedChannel> channels = baked_channels(*channel.map, material, options);
-    if (channel.component >= static_cast<int>(channels.size()))
-      throw UsageError("pack", "",
-                       std::string(to_string(*channel.map)) + " has one component under this light");
-    packed.channels.push_back(channels[static_cast<std::size_t>(channel.component)]);
+    packed.channels.push_back(
+        baked_channels(*channel.map, material, options)[static_cast<std::size_t>(channel.component)]);
     packed.channels.back().quantity.insert(0, std::string(to_string(*channel.map)) + ": ");
   }
   textures.push_back(std::move(packed));

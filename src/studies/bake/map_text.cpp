@@ -14,7 +14,7 @@ const char* definition(MaterialMap map, const BakeOptions& options) {
                  : "ambient occlusion, cosine weighted (sky view factor): (1/pi) int V cos(theta) dw; 1 = "
                    "open";
     case MaterialMap::multibounce:
-      return options.find_light
+      return options.light_channels > 0
                  ? "irradiance of all bounces over pi, under the light of the sidecar, at the albedo"
                  : "irradiance of all bounces over pi, under a sky of radiance 1, at the albedo; 1 = "
                    "unoccluded";
@@ -51,7 +51,7 @@ bool is_lit(MaterialMap map, const BakeOptions& options) {
   switch (map) {
     case MaterialMap::multibounce:
     case MaterialMap::direct:
-      return !options.find_light;
+      return options.light_channels == 0;
     case MaterialMap::normal:
     case MaterialMap::height:
     case MaterialMap::horizon:

@@ -77,7 +77,7 @@ Material find_material(const Surface& surface, const BakeOptions& options) {
   Material material;
   material.surface = &surface;
   const bool is_lit = is_wanted(options, MaterialMap::multibounce) || is_wanted(options, MaterialMap::direct);
-  if (options.find_light && is_lit) {
+  if (options.light_channels > 0 && is_lit) {
     material.light = options.find_light(surface);
     if (!request.wanted.totals.empty()) request.wanted.direct = material.light.channels;
   }

@@ -144,7 +144,7 @@ void write_sidecar(const std::filesystem::path& path, const BakeOptions& options
   json["reach"] = describe_reach(options);
   if (is_wanted(options, MaterialMap::multibounce)) {
     json["albedo"] = describe_albedo(options.albedo);
-    if (options.find_light) {
+    if (options.light_channels > 0) {
       json["light"] = {{"of", material.light.description}, {"direct_rmse", material.light.rmse}};
     }
     json["bounces"] = {{"gathered", evidence.bounces}, {"then", "the rest, to convergence"}};
