@@ -9,8 +9,9 @@ import xarray as xr
 
 from . import _native
 from ._heights import Heightmap
+from ._light import sun_irradiance
 from ._operator import operator
-from ._sky import angles_of, sky
+from ._sky import angles_of, definitions, sky
 
 _DEGREES = ("degree", "degrees", "degrees_north", "degrees_east", "degree_north", "degree_east", "deg")
 
@@ -61,6 +62,19 @@ class HeightlightAccessor:
         found = sky(self.heightmap(texel, boundary), **options).horizons(angles)
         maps = [self._like(one, "horizon", "elevation of the horizon", texel, "rad") for one in found]
         return xr.concat(maps, xr.Variable("azimuth", angles, {"units": "rad"}))
+
+    def definition(self, name: str, *, texel: Any = None, boundary: str = "open", **options: Any) -> xr.DataArray:
+        """What terrain science calls by that name: "svf-horizontal", "openness-positive" … (`heightlight.definitions()`)."""
+        found = sky(self.heightmap(texel, boundary), **options).definition(name)
+        return self._like(found, name.replace("-", "_"), definitions()[name], texel, "rad" if name.startswith("open") else "1")
+
+    def sun_irradiance(
+        self, azimuth: float, elevation: float, *, texel: Any = None, boundary: str = "open", **options: Any
+    ) -> xr.DataArray:
+        """E₀/π of the sun alone, 1 where a plane faces it; angles in degrees, azimuths clockwise from north. Its bounces:
+        `irradiance(albedo, direct=…)`."""
+        found = sun_irradiance(self.heightmap(texel, boundary), azimuth, elevation, **options)
+        return self._like(found, "sun_irradiance", "direct irradiance of the sun over that of a plane that faces it", texel)
 
     def irradiance(
         self, albedo: Any = 0.2, *, direct: Optional[Any] = None, texel: Any = None, boundary: str = "open", **options: Any

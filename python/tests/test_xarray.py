@@ -89,3 +89,16 @@ def test_light_of_ones_own_and_albedo_maps_are_turned_too():
     found = up.heightlight.irradiance(albedo, direct=sun)
     op = hl.operator(up.values[::-1].astype(float), texel=10, boundary="open")
     np.testing.assert_array_equal(found.values[::-1], op.solve(albedo[::-1], sun[::-1]))
+
+
+def test_suns_and_definitions_lie_as_the_array_does():
+    down, up = terrain(True), terrain(False)
+    for found in (
+        lambda array: array.heightlight.sun_irradiance(160, 20),
+        lambda array: array.heightlight.definition("svf-horizontal"),
+        lambda array: array.heightlight.irradiance(0.9, direct=array.heightlight.sun_irradiance(160, 20)),
+    ):
+        np.testing.assert_array_equal(found(up).values[::-1], found(down).values)
+    assert down.heightlight.definition("openness-positive").attrs["units"] == "rad"
+    expected = hl.sun_irradiance(down.values.astype(float), 160, 20, texel=10, boundary="open")
+    np.testing.assert_array_equal(down.heightlight.sun_irradiance(160, 20).values, expected)
