@@ -17,9 +17,12 @@
 namespace heightlight {
 namespace {
 
+/// Under an even sky.
 std::vector<MaterialMap> all_maps() {
   std::vector<MaterialMap> maps;
-  for (const MaterialMapName& entry : material_maps()) maps.push_back(entry.map);
+  for (const MaterialMapName& entry : material_maps()) {
+    if (entry.map != MaterialMap::direct) maps.push_back(entry.map);
+  }
   return maps;
 }
 

@@ -111,5 +111,34 @@ TEST_CASE("ground below the horizontal darkens slopes, and is told", "[bake][ter
   CHECK_THROWS_AS(check_bake_options(options), UsageError);
 }
 
+TEST_CASE("a light of one's own is baked beside its bounces, in its channels", "[bake][terrain]") {
+  const ScratchFolder folder;
+  BakeOptions options = float_maps({MaterialMap::direct, MaterialMap::multibounce});
+  options.albedo = {.constant = {0}};
+  options.light_channels = 3;
+  options.find_light = [](const Surface& surface) {
+    BakedLight light{.description = "three lamps"};
+    for (const double brightness : {0.25, 0.5, 2.0})
+      light.channels.emplace_back(surface.map.height.size(), brightness);
+    return light;
+  };
+  options.packed = {{MaterialMap::direct, 2, 0}};
+  bake_map(two_walls(Boundary::open), options, folder.path());
+  const ReadTexture direct = read_by_oiio(folder / "m_direct.exr");
+  const ReadTexture total = read_by_oiio(folder / "m_multibounce.exr");
+  REQUIRE(direct.channels == 3);
+  CHECK(direct.at(5, 7, 0) == 0.25F);
+  CHECK(direct.at(5, 7, 2) == 2);
+  CHECK(total.samples == direct.samples);  // black ground: identity
+  CHECK(read_by_oiio(folder / "m_packed.exr").at(5, 7, 0) == 2);
+  CHECK(read_sidecar(folder.path())["light"]["of"] == "three lamps");
+  options.packed = {{MaterialMap::direct, 3, 0}};
+  CHECK_THROWS_AS(bake_map(two_walls(Boundary::open), options, folder.path()), UsageError);
+  options.light_channels = 0;
+  options.packed = {};
+  CHECK_THROWS_WITH(bake_map(two_walls(Boundary::open), options, folder.path()),
+                    Catch::Contains("direct wants a light"));
+}
+
 }  // namespace
 }  // namespace heightlight

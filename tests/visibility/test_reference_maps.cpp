@@ -146,6 +146,7 @@ TEST_CASE("the lakes' horizons by the compass are topocalc's, side by side",
   const Surface surface = build_surface(*lakes);
   Request request;
   request.wanted.horizon_rad = equal_azimuths(4, AzimuthConvention::north);
+  request.accuracy.error = 0.0005;
   const Results results = solve(surface, request);
   const std::vector<std::string> sides{"north", "east", "south", "west"};
   for (std::size_t ours = 0; ours < sides.size(); ++ours) {

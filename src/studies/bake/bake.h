@@ -70,8 +70,8 @@ struct PackedChannel {
 
 /// Light that is no even sky's.
 struct BakedLight {
-  std::vector<TexelVector> channels;  ///< E₀/π: one, or red, green and blue
-  std::string description;
+  std::vector<TexelVector> channels = {};  ///< E₀/π: one, or red, green and blue
+  std::string description = {};
   double rmse = 0;  ///< of it, where that was found
 };
 
