@@ -59,14 +59,6 @@ struct EndTiff {
 };
 using TiffOutput = std::unique_ptr<TIFF, EndTiff>;
 
-/// Whether offsets of 32 bits may not do: what is not compressed at all, and its overviews.
-bool is_big(const TextureLayout& layout) {
-  const double samples =
-      double{1} * layout.width * layout.height * static_cast<double>(layout.channels.size());
-  constexpr double kLargest = 4.0e9;
-  return samples * 4 / 3 * static_cast<double>(sizeof(float)) > kLargest;
-}
-
 TiffOutput open_tiff_output(std::FILE* stream, const std::filesystem::path& path, bool big,
                             std::string& fault) {
   const std::unique_ptr<TIFFOpenOptions, decltype(&TIFFOpenOptionsFree)> options(TIFFOpenOptionsAlloc(),
@@ -101,6 +93,14 @@ void store(SampleType type, const float* samples, std::size_t count, unsigned ch
 
 std::size_t bytes_of_sample(SampleType type) {
   return type == SampleType::uint8 ? 1 : type == SampleType::real ? 4 : 2;
+}
+
+/// Whether offsets of 32 bits may not do: what is not compressed at all, and its overviews.
+bool is_big(const TextureLayout& layout) {
+  const double samples =
+      double{1} * layout.width * layout.height * static_cast<double>(layout.channels.size());
+  constexpr double kLargest = 4.0e9;
+  return samples * 4 / 3 * static_cast<double>(bytes_of_sample(layout.type)) > kLargest;
 }
 
 /// Rows of an overview: means of factor × factor samples, of those that are there; whole levels of integers.
