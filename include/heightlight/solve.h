@@ -49,7 +49,7 @@ struct Wanted {
   std::optional<Reach> reach = {};  ///< as far as occluders count for all of the above; never for bounces
   std::vector<Albedo> totals = {};  ///< albedos at which the total of all bounces is found
   bool seen = false;                ///< n of every texel (forms.h), solved for at kSeenAlbedo
-  int bounces = 0;          ///< K > 0: E₀ … E_K apart, for `sink`, or in Results where there is none
+  int bounces = 0;  ///< K > 0: E₀ … E_K apart, for `sink`, or in Results where there is none
   /// E₀/π of light of one's own, for `totals`; the sky's where empty. One for all channels, or one for each:
   /// an albedo of one channel has as many totals then.
   std::vector<TexelVector> direct = {};
@@ -89,9 +89,9 @@ struct Request {
   Limits limits = {};
   Watch watch = {};
   BounceSink* sink = nullptr;
-  /// An operator that find_operator found for this surface and this accuracy: bounces and totals go by it,
-  /// and are the same, to the last bit, as where each request finds its own. Its sky is the one of
-  /// `wanted.sky`.
+  /// An operator that find_operator found for this surface, this accuracy and this direct light: bounces and
+  /// totals go by it, and are the same, to the last bit, as where each request finds its own. Its sky is the
+  /// one of `wanted.sky`.
   const PlannedTransport* transport = nullptr;
 };
 
@@ -118,7 +118,9 @@ struct Results {
 Results solve(const Surface& surface, const Request& request);
 
 /// The operator that a request's bounces and totals go by, for many requests (Request::transport). Of
-/// `request`, the accuracy, the limits and the watch count. `surface` must outlive it. Throws as solve does.
+/// `request`, the accuracy, the limits, the watch and `wanted.direct` count: it is planned for that light,
+/// and bears other light of any kind, at more or less than the error wanted. `surface` must outlive it.
+/// Throws as solve does.
 PlannedTransport find_operator(const Surface& surface, const Request& request);
 
 /// Bytes that solving takes at its worst moment on a map of that size, beside the links: from the sizes of

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "heightlight/image.h"
@@ -161,6 +162,8 @@ struct GatherPlan {
                                        ///< Transport::gather
   int first_bounce_azimuths = 32;      ///< of the first of single bounces
   double error = 0;  ///< RMSE of the total at ρ = 0.8 expected from gathers alone; 0 where there was no pilot
+  double unevenness = 1;  ///< of the light that the azimuths are planned for, beside the sky's: how much more
+                          ///< its radiosity varies over what is seen. More uneven light gets more of them
 };
 
 /// Both walks of one map.
@@ -192,6 +195,8 @@ struct HorizonGoal {
   int azimuths = 0;        ///< > 0: those of the sky, fixed
   std::uint64_t seed = 1;  ///< of the sample of receivers
   double sky_share = 1;    ///< of the error, that A may have: less where finer things hang on its walk
+  std::span<const TexelVector> direct = {};  ///< E₀/π of light of one's own that totals are to be of, each
+                                             ///< in units of its brightest; empty: the sky's
 };
 
 /// Chooses a plan by trying ways of walking on a sample of receivers against exact walks; then builds.

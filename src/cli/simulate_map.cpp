@@ -74,7 +74,8 @@ Request make_request(const SimulateOptions& options, const Albedo& albedo, const
   return request;
 }
 
-/// Bounces under an even sky and the total under a light of one's own, by one operator.
+/// Bounces under an even sky and the total under a light of one's own: by one operator where links are
+/// stored, while walks are planned for each of the two.
 Results solve_with_light(const Surface& surface, const Request& request, std::vector<TexelVector> direct) {
   const PlannedTransport found = find_operator(surface, request);
   Request bounces = request;
@@ -84,12 +85,14 @@ Results solve_with_light(const Surface& surface, const Request& request, std::ve
   bounces.wanted.totals = {};
   total.wanted = {.totals = request.wanted.totals, .direct = std::move(direct)};
   total.sink = nullptr;
+  if (request.accuracy.visibility == Visibility::horizon_walks) total.transport = nullptr;
   Results results = solve(surface, bounces);
   Results lit = solve(surface, total);
   results.totals = std::move(lit.totals);
   results.evidence.total_checks = lit.evidence.total_checks;
   results.evidence.audits = lit.evidence.audits;
   results.evidence.gathers = lit.evidence.gathers;
+  if (lit.evidence.plan) results.evidence.plan->gather = lit.evidence.plan->gather;
   results.evidence.refined = lit.evidence.refined;
   results.evidence.sky_rmse = lit.evidence.sky_rmse;
   results.evidence.seconds.bounces += lit.evidence.seconds.bounces;

@@ -5,6 +5,9 @@
 
 namespace heightlight {
 
+/// What a definition that is not of A is the mean of.
+HorizonMean mean_of(SkyDefinition definition);
+
 /// What horizons are to be found for.
 struct MeansGoal {
   std::vector<HorizonMean> means;

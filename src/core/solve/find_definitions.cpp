@@ -6,20 +6,6 @@
 namespace heightlight {
 namespace {
 
-/// Of horizons, not of A.
-HorizonMean mean_of(SkyDefinition definition) {
-  switch (definition) {
-    case SkyDefinition::svf_horizontal:
-      return HorizonMean::squared_cosine;
-    case SkyDefinition::svf_solid_angle:
-      return HorizonMean::one_less_sine;
-    case SkyDefinition::mean_cos_h:
-      return HorizonMean::cosine;
-    default:
-      return HorizonMean::zenith_angle;
-  }
-}
-
 /// The surface seen from below. What is level tilts the other way, as a surface of the opposite curvature has
 /// it.
 Surface turn_upside_down(const Surface& surface) {
@@ -61,6 +47,19 @@ void find_means(const Task& task, const Surface& surface, const std::vector<std:
 }
 
 }  // namespace
+
+HorizonMean mean_of(SkyDefinition definition) {
+  switch (definition) {
+    case SkyDefinition::svf_horizontal:
+      return HorizonMean::squared_cosine;
+    case SkyDefinition::svf_solid_angle:
+      return HorizonMean::one_less_sine;
+    case SkyDefinition::mean_cos_h:
+      return HorizonMean::cosine;
+    default:
+      return HorizonMean::zenith_angle;
+  }
+}
 
 bool is_of_sky(SkyDefinition definition) {
   return definition == SkyDefinition::svf_tilted || definition == SkyDefinition::terrain_view_factor;

@@ -38,6 +38,7 @@ PlannedTransport find_operator(const Task& task, double error, const SkyWanted& 
   } else {
     HorizonGoal goal = plan_goal(request, keeps_sky(request.wanted) && request.wanted.moments.first);
     goal.error = error;
+    goal.direct = task.direct;
     found = plan_horizon_transport(task.surface, goal, moments, request.watch);
   }
   return found;

@@ -136,12 +136,15 @@ Results solve(const Surface& surface, const Request& request) {
 
 PlannedTransport find_operator(const Surface& surface, const Request& request) {
   Request bounced = request;
-  bounced.wanted = {.totals = {{.constant = {0}}}};  // something that an operator is found for
+  bounced.wanted = {.totals = {{.constant = {0}}},  // something that an operator is found for
+                    .direct = request.wanted.direct};
   check_request(surface, bounced);
   const ThreadScope threads(request.limits.threads);
   Evidence evidence;
-  const Task task{
-      .surface = surface, .request = bounced, .free_memory = memory_left(surface, bounced, evidence)};
+  const Task task{.surface = surface,
+                  .request = bounced,
+                  .direct = bounced.wanted.direct,
+                  .free_memory = memory_left(surface, bounced, evidence)};
   return find_operator(task, request.accuracy.error, {});
 }
 

@@ -5,6 +5,7 @@
 #include "base/texels.h"
 #include "transport/horizon_plan.h"
 #include "transport/progressive_gather.h"
+#include "transport/seen_places.h"
 
 namespace heightlight {
 namespace {
@@ -43,7 +44,16 @@ double azimuths_together(int left, int last_azimuths) {
 class AzimuthErrors {
  public:
   AzimuthErrors(const HorizonPilot& pilot, const Map& x) : measured_(pilot.gather_azimuth_errors(x)) {
-    if (measured_[3] > 0) order_ = std::clamp(std::log2(measured_[2] / measured_[3]), 0.5, 1.5);
+    find_order();
+  }
+
+  /// The largest under any of the lights.
+  AzimuthErrors(const HorizonPilot& pilot, const std::vector<PlanLight>& lights) {
+    for (const PlanLight& light : lights) {
+      const HorizonPilot::AzimuthTrials found = pilot.gather_azimuth_errors(light.radiosity);
+      for (std::size_t i = 0; i < found.size(); ++i) measured_[i] = std::max(measured_[i], found[i]);
+    }
+    find_order();
   }
 
   double at(double azimuths) const {
@@ -52,7 +62,11 @@ class AzimuthErrors {
   }
 
  private:
-  HorizonPilot::AzimuthTrials measured_;
+  void find_order() {
+    if (measured_[3] > 0) order_ = std::clamp(std::log2(measured_[2] / measured_[3]), 0.5, 1.5);
+  }
+
+  HorizonPilot::AzimuthTrials measured_{};
   double order_ = 1;
 };
 
@@ -94,10 +108,15 @@ struct Candidate {
   double cost = 0;
 };
 
+/// Azimuths at most: of the sky's light more tell little that fewer do not; of a sun's, which lights one side
+/// of a roof and not the other, they tell much.
+constexpr int most_azimuths(double unevenness) { return unevenness > 1 ? 256 : 64; }
+
 /// With the fewest azimuths that leave no more than the error beside what sampling leaves; if none do, with
 /// so many that they leave little beside it.
 Candidate choose_azimuths(const AzimuthErrors& errors, double sampled, double wanted, GatherPlan plan) {
-  for (const int azimuths : {2, 4, 8, 12, 16, 20, 24, 32, 40, 48, 64}) {
+  for (const int azimuths : {2, 4, 8, 12, 16, 20, 24, 32, 40, 48, 64, 96, 128, 192, 256}) {
+    if (azimuths > most_azimuths(plan.unevenness)) break;
     plan.walk.azimuths = azimuths;
     const double few = azimuths_leave(errors, azimuths);
     plan.error = std::hypot(sampled, few, kEndShare * wanted);
@@ -118,15 +137,60 @@ double error_for_gathers(double error, double by_sky) {
   return std::sqrt(std::max(aim * aim - by_sky * by_sky, kLeastShare * aim * (kLeastShare * aim)));
 }
 
-}  // namespace
-
-Map guess_radiosity(const Map& sky) {
+/// Radiosity / π at kPlanAlbedo, by E/π of every texel as a function of its index.
+template <class Irradiance>
+Map radiosity_of(const Map& sky, Irradiance&& irradiance) {
   Map radiosity(sky.width, sky.height);
   for_texels(sky, [&](std::size_t i) {
-    const double guessed = kPlanAlbedo * guess_total(double{sky.values[i]}, kPlanAlbedo);
-    radiosity.values[i] = std::isnan(sky.values[i]) ? sky.values[i] : static_cast<float>(guessed);
+    radiosity.values[i] =
+        std::isnan(sky.values[i]) ? sky.values[i] : static_cast<float>(kPlanAlbedo * irradiance(i));
   });
   return radiosity;
+}
+
+/// Light of one's own. Of what it brings by bounces the closed form knows under the sky, G − A; in the mean
+/// it goes with the direct light of what is seen.
+PlanLight plan_light(const Surface& surface, const Map& sky, const TexelVector& direct) {
+  const double brightest = *std::max_element(direct.begin(), direct.end());
+  const double per_unit = brightest > 0 ? 1 / brightest : 0;
+  double seen_direct = 0;
+  double seen_sky = 0;
+  for_seen_places(sky, surface, [&](std::size_t i, double share, double area) {
+    seen_direct += share * area * direct[i] * per_unit;
+    seen_sky += share * area * double{sky.values[i]};
+  });
+  const double per_bounced = seen_sky > 0 ? seen_direct / seen_sky : 0;
+  return {.radiosity = radiosity_of(sky,
+                                    [&](std::size_t i) {
+                                      const auto share = double{sky.values[i]};
+                                      const double bounced = guess_total(share, kPlanAlbedo) - share;
+                                      return direct[i] * per_unit + per_bounced * bounced;
+                                    }),
+          .per_sky = 0,
+          .unevenness = unevenness({.direct = &direct, .albedo = kPlanAlbedo}, sky, surface)};
+}
+
+/// RMSE that sampling brings into a total, under the light that it brings most into.
+double sampling_error(HorizonPilot& pilot, const MapGather& gather, const std::vector<PlanLight>& lights) {
+  double largest = 0;
+  for (const PlanLight& light : lights) {
+    FieldPyramid pyramid = gather.make_pyramid();
+    pyramid.fill(light.radiosity);
+    largest = std::max(largest, pilot.gather_sampling_error(gather, pyramid, light.radiosity));
+  }
+  return largest;
+}
+
+}  // namespace
+
+std::vector<PlanLight> plan_lights(const Surface& surface, const Map& sky, const HorizonGoal& goal) {
+  std::vector<PlanLight> lights;
+  for (const TexelVector& direct : goal.direct) lights.push_back(plan_light(surface, sky, direct));
+  if (lights.empty()) {
+    const auto total = [&](std::size_t i) { return guess_total(double{sky.values[i]}, kPlanAlbedo); };
+    lights.push_back({.radiosity = radiosity_of(sky, total)});
+  }
+  return lights;
 }
 
 PlannedGather plan_gather(HorizonPilot& pilot, const HeightMips& mips, double error,
@@ -139,17 +203,18 @@ PlannedGather plan_gather(HorizonPilot& pilot, const HeightMips& mips, double er
     return planned;
   }
   const Map& sky = planned_sky.sky.sky_view_factor;
-  const Map radiosity = guess_radiosity(sky);
-  const AzimuthErrors errors(pilot, radiosity);
+  const std::vector<PlanLight>& lights = planned_sky.lights;
+  const AzimuthErrors errors(pilot, lights);
+  planned.plan.unevenness = 0;
+  for (const PlanLight& light : lights)
+    planned.plan.unevenness = std::max(planned.plan.unevenness, light.unevenness);
   const double wanted = error_for_gathers(error, planned_sky.effect);
   Candidate best;
   for (const int fineness : {8, 12, 16, 24, 32, 48, 64}) {
     GatherPlan plan = planned.plan;
     plan.walk.fineness = fineness;
     auto gather = std::make_unique<MapGather>(pilot.surface(), mips, plan.walk);
-    FieldPyramid pyramid = gather->make_pyramid();
-    pyramid.fill(radiosity);
-    const double sampled = pilot.gather_sampling_error(*gather, pyramid, radiosity);
+    const double sampled = sampling_error(pilot, *gather, lights);
     const Candidate candidate = choose_azimuths(errors, sampled, wanted, plan);
     if (!planned.gather || is_better(candidate, best, wanted)) {
       best = candidate;

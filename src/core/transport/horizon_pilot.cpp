@@ -71,17 +71,12 @@ double root_mean(double squares, std::size_t count) {
 /// A of an exact view by every other azimuth; NaN where the sample is missing.
 double sky_by_even_azimuths(const ExactWalker& walker, const Vector3& normal, const SliceView& view) {
   const Eigen::Vector3d n = as_eigen(normal).cast<double>().normalized();
-  double sky = 0;
-  double whole = 0;
+  SkyShareSum sky;
   for (std::size_t k = 0; k < view.horizon_rad.size(); k += 2) {
     const double azimuth = walker.azimuth_rad(static_cast<int>(k));
-    const SliceNormal in_slice{n.x() * std::cos(azimuth) + n.y() * std::sin(azimuth), n.z()};
-    const double tangent = tangent_slope(in_slice);
-    const double horizon = std::max(std::tan(view.horizon_rad[k]), tangent);
-    whole += cosine_mass(in_slice, elevation_of_slope(tangent), {});
-    sky += cosine_mass(in_slice, elevation_of_slope(horizon), {});
+    sky.add({n.x() * std::cos(azimuth) + n.y() * std::sin(azimuth), n.z()}, std::tan(view.horizon_rad[k]));
   }
-  return sky / whole;
+  return sky.value();
 }
 
 /// x by texel, 0 where it is missing.
@@ -308,12 +303,12 @@ void HorizonPilot::see_classes(const Map& sky, double albedo) {
   }
 }
 
-double HorizonPilot::sky_effect(const Map& x) const {
+double HorizonPilot::sky_effect(const Map& x, double direct_per_sky) const {
   std::vector<double> effects;
   for (const ExactReceiver& receiver : exact_) {
     const double share = 1 - receiver.view.sky_view_factor;
     const double gathered = gather_exactly(receiver.view, surface_, finite_values(x));
-    effects.push_back(share > 0 ? 1 - gathered / share : 0);
+    effects.push_back(share > 0 ? direct_per_sky - gathered / share : 0);
   }
   return root_mean_square(effects);
 }

@@ -61,9 +61,9 @@ class HorizonPilot {
   /// gathers can be tried.
   void see_classes(const Map& sky, double albedo);
 
-  /// RMS of what a total changes by at the last step for a change of 1 of A: 1 − the mean of x seen, the
-  /// radiosity.
-  double sky_effect(const Map& x) const;
+  /// RMS of what a total changes by at the last step for a change of 1 of A: what its direct light does, less
+  /// the mean of x seen, the radiosity.
+  double sky_effect(const Map& x, double direct_per_sky) const;
 
   /// RMSE that sampling brings into a total: one gather's, of (1 − A) × the mean of x seen against exact
   /// walks along the same azimuths, and what later gathers make of that. `pyramid` holds x.

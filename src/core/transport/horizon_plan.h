@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "transport/horizon_pilot.h"
 #include "transport/map_gather.h"
@@ -19,15 +20,24 @@ double sky_cost(const SkyPlan& plan);
 /// How the sky is to be walked.
 SkyPlan plan_sky(HorizonPilot& pilot, const HorizonGoal& goal);
 
-/// Radiosity / π at kPlanAlbedo under the sky, as the closed form has it. What gathers make of it errs by
-/// about as much as what they make of the true one.
-Map guess_radiosity(const Map& sky);
+/// Light that totals are planned for: its radiosity / π at kPlanAlbedo, in units of the brightest direct
+/// light, as closed forms have it. What gathers make of it errs by about as much as what they make of the
+/// true one.
+struct PlanLight {
+  Map radiosity;
+  double per_sky = 1;     ///< what direct light changes by with A
+  double unevenness = 1;  ///< as GatherPlan has it
+};
+
+/// Those of a goal, at least one.
+std::vector<PlanLight> plan_lights(const Surface& surface, const Map& sky, const HorizonGoal& goal);
 
 /// A sky as it was walked, and the RMSE of a total at kPlanAlbedo that what A errs by brings.
 struct PlannedSky {
   SkyPlan plan = {};
   HorizonSky sky = {};
-  double effect = 0;
+  std::vector<PlanLight> lights = {};
+  double effect = 0;  ///< under the light that it is most under
 };
 
 /// A total hangs on A by more than A's own error, where that is of one sign along a wall. Where it would take

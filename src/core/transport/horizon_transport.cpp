@@ -51,7 +51,8 @@ class HorizonTransport : public Transport {
   }
 
   Totals solve(const std::vector<LightSystem>& systems, const Watch& watch) const override {
-    const ProgressiveGoal goal{.error = error_, .last_azimuths = plan_.walk.azimuths};
+    const ProgressiveGoal goal{
+        .error = error_, .last_azimuths = plan_.walk.azimuths, .planned_unevenness = plan_.unevenness};
     ProgressiveSolution solution = gather_progressively(*gather_, sky_view_factor, systems, goal, watch);
     return {.irradiance = std::move(solution.irradiance), .gathers = solution.gathers};
   }

@@ -94,10 +94,24 @@ Map start(const LightSystem& system, const Map& sky, double unit) {
   return irradiance;
 }
 
+/// Of `light`, which the system starts with.
+double unevenness_of(const LightSystem& system, const Map& light, const Map& sky, const Surface& surface) {
+  const double even = seen_spread(sky, surface, [&](std::size_t i) {
+    return kPlanAlbedo * guess_total(double{sky.values[i]}, kPlanAlbedo);
+  });
+  const double spread = seen_spread(sky, surface, [&](std::size_t i) {
+    const double albedo = system.varying ? (*system.varying)[i] : system.albedo;
+    return albedo * double{light.values[i]};
+  });
+  return even > 0 ? spread / even : 1;
+}
+
+double light_unit(const LightSystem& system) { return system.direct ? unit_of(*system.direct) : 1; }
+
 Field begin(const LightSystem& system, const Map& sky, double deep_share) {
   Field field{.system = system};
   field.kappa = highest_albedo(system) * deep_share;
-  field.unit = system.direct ? unit_of(*system.direct) : 1;
+  field.unit = light_unit(system);
   field.irradiance = start(system, sky, field.unit);
   field.before = field.irradiance;
   field.weighted = Map(sky.width, sky.height);
@@ -264,6 +278,10 @@ double guess_total(double sky, double albedo) {
   return bounced_total(share, guess_seen(share), albedo);
 }
 
+double unevenness(const LightSystem& system, const Map& sky, const Surface& surface) {
+  return unevenness_of(system, start(system, sky, light_unit(system)), sky, surface);
+}
+
 int gather_azimuths(int left, int last_azimuths) {
   constexpr int kFewest = 4;
   const int part = left <= 2 ? 1 : left == 3 ? 2 : 4;
@@ -278,14 +296,10 @@ ProgressiveSolution gather_progressively(const MapGather& gather, const Map& sky
   const double deep_share = deep_surface_share(sky, gather.surface());
   std::vector<Field> fields;
   const Surface& surface = gather.surface();
-  const double planned_for = seen_spread(sky, surface, [&](std::size_t i) {
-    return kPlanAlbedo * guess_total(double{sky.values[i]}, kPlanAlbedo);
-  });
   for (const LightSystem& system : systems) {
     Field& field = fields.emplace_back(begin(system, sky, deep_share));
-    const double spread = seen_spread(
-        sky, surface, [&](std::size_t i) { return field.albedo(i) * double{field.irradiance.values[i]}; });
-    field.last_azimuths = azimuths_for(planned_for > 0 ? spread / planned_for : 1, goal.last_azimuths);
+    const double found = unevenness_of(system, field.irradiance, sky, surface);
+    field.last_azimuths = azimuths_for(found / goal.planned_unevenness, goal.last_azimuths);
   }
   ProgressiveSolution solution;
   GatherStep step(gather, sky, watch);

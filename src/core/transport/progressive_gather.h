@@ -40,7 +40,8 @@ struct ProgressiveGoal {
                          ///< up to 0.6
   int last_azimuths =
       8;  ///< of each of the last two gathers; the third last has half of them, others a quarter. They
-          ///< are planned for the sky's light at kPlanAlbedo: more uneven radiosity gets more
+          ///< are planned for light of some unevenness at kPlanAlbedo: what is more uneven gets more
+  double planned_unevenness = 1;
 };
 
 /// The albedo up to which a plan's error is meant.
@@ -52,6 +53,11 @@ constexpr double kFading = 0.6;
 
 /// The closed form that gathers start from, E/π of a place with the sky view factor A.
 double guess_total(double sky, double albedo);
+
+/// How much more a system's radiosity, but for what bounces where light is one's own, varies over what is
+/// seen than that of the sky at kPlanAlbedo does: both in units of their direct light. 1 where the latter is
+/// even.
+double unevenness(const LightSystem& system, const Map& sky, const Surface& surface);
 
 /// Azimuths of a gather when so many are left, itself among them.
 int gather_azimuths(int left, int last_azimuths);

@@ -162,8 +162,12 @@ PlannedSky find_sky_for_totals(HorizonPilot& pilot, const HeightMips& mips, cons
     planned.plan = plan_sky(pilot, aimed);
     planned.sky = walk_horizon_sky(pilot.surface(), mips, planned.plan, {.wanted = wanted}, watch);
     pilot.see_classes(planned.sky.sky_view_factor, kPlanAlbedo);
-    planned.effect =
-        kPassedOn * pilot.sky_effect(guess_radiosity(planned.sky.sky_view_factor)) * planned.plan.error;
+    planned.lights = plan_lights(pilot.surface(), planned.sky.sky_view_factor, goal);
+    planned.effect = 0;
+    for (const PlanLight& light : planned.lights) {
+      const double effect = kPassedOn * pilot.sky_effect(light.radiosity, light.per_sky) * planned.plan.error;
+      planned.effect = std::max(planned.effect, effect);
+    }
   };
   find(goal);
   const double most = kMostOfTotal * kTotalAim * goal.error;

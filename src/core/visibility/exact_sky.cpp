@@ -87,18 +87,14 @@ double open_share(const Reach& reach, double distance) {
 
 double sky_above_horizontal(const ExactWalker& walker, int row, int column, const SliceView& view) {
   const Eigen::Vector3d normal = as_eigen(walker.surface().normal(row, column)).cast<double>().normalized();
-  double sky = 0;
-  double whole = 0;
+  SkyShareSum sky;
   for (int k = 0; k < walker.azimuths(); ++k) {
     const Eigen::Vector2d azimuth(std::cos(walker.azimuth_rad(k)), std::sin(walker.azimuth_rad(k)));
-    const SliceNormal in_slice{normal.head<2>().dot(azimuth), normal.z()};
-    const double tangent = tangent_slope(in_slice);
-    const double lowest = std::max(tangent, walker.level_slope(row, column, azimuth));
     const double horizon = std::tan(view.horizon_rad[static_cast<std::size_t>(k)]);
-    whole += cosine_mass(in_slice, elevation_of_slope(tangent), {});
-    sky += cosine_mass(in_slice, elevation_of_slope(std::max(lowest, horizon)), {});
+    sky.add({normal.head<2>().dot(azimuth), normal.z()},
+            std::max(walker.level_slope(row, column, azimuth), horizon));
   }
-  return sky / whole;
+  return sky.value();
 }
 
 ExactSky find_exact_sky(const ExactWalker& walker, int row, int column, const std::optional<Reach>& reach,

@@ -31,15 +31,31 @@ using HorizonTerms = std::array<T, kHorizonMeans>;
 /// distance.
 constexpr float kNoSlope = -1e9F;
 
-/// Of a horizon that is seen under `slope`, where the tangent plane is under `tangent`, both above what is
-/// level: that plane stands for a horizon where there is none.
+/// What one azimuth adds to a mean, of a horizon that is seen under `slope`, where the tangent plane is under
+/// `tangent`, both above what is level: that plane stands for a horizon where there is none.
 template <class T>
-HorizonTerms<T> horizon_terms(T slope, T tangent) {
-  const T h = std::atan(slope > static_cast<T>(kNoSlope) ? slope : tangent);
+T horizon_term(HorizonMean mean, T slope, T tangent) {
   const T m = std::max(slope, T{0});
   const T q = 1 / (1 + m * m);
-  const T cosine = std::sqrt(q);
-  return {q, 1 - m * cosine, cosine, std::numbers::pi_v<T> / 2 - h};
+  switch (mean) {
+    case HorizonMean::squared_cosine:
+      return q;
+    case HorizonMean::one_less_sine:
+      return 1 - m * std::sqrt(q);
+    case HorizonMean::cosine:
+      return std::sqrt(q);
+    default:
+      return std::numbers::pi_v<T> / 2 - std::atan(slope > static_cast<T>(kNoSlope) ? slope : tangent);
+  }
+}
+
+/// To each of the means.
+template <class T>
+HorizonTerms<T> horizon_terms(T slope, T tangent) {
+  return {horizon_term(HorizonMean::squared_cosine, slope, tangent),
+          horizon_term(HorizonMean::one_less_sine, slope, tangent),
+          horizon_term(HorizonMean::cosine, slope, tangent),
+          horizon_term(HorizonMean::zenith_angle, slope, tangent)};
 }
 
 /// Sums of these over the azimuths walked so far, per receiver of a tile.

@@ -74,6 +74,12 @@ double cosine_mass(const SliceNormal& normal, const Elevation& from, const Eleva
   return 0.5 * (half_tangent * p * (c * p + normal.up * q) + c * angle_minus_sine(sine_delta, cosine_delta));
 }
 
+void SkyShareSum::add(const SliceNormal& normal, double horizon_slope) {
+  const double tangent = tangent_slope(normal);
+  whole_ += cosine_mass(normal, elevation_of_slope(tangent), {});
+  open_ += cosine_mass(normal, elevation_of_slope(std::max(tangent, horizon_slope)), {});
+}
+
 // Let v = (1 − t) ω_a + t ω_b run over the chord between the directions to the ends, A = |A| ω_a and B = |B|
 // ω_b. Then dθ = sinδ dt/|v|², so that the weight is
 //     (n·ω) cosθ dθ ∝ (n·v) v_d dt/|v|⁴,

@@ -26,6 +26,18 @@ double tangent_slope(const SliceNormal& normal);
 /// factor but for dφ/π, which normalisation supplies. Additive to rounding.
 double cosine_mass(const SliceNormal& normal, const Elevation& from, const Elevation& to);
 
+/// A, from horizons one azimuth after the other.
+class SkyShareSum {
+ public:
+  /// A horizon by its slope, −∞ where there is no surface: the tangent plane may lie above it.
+  void add(const SliceNormal& normal, double horizon_slope);
+  double value() const { return open_ / whole_; }
+
+ private:
+  double open_ = 0;
+  double whole_ = 0;
+};
+
 /// Where on a straight stretch of the profile, as a share of it in [0, 1] from its near end to its far one,
 /// its light comes from: the mean weighted as in `cosine_mass`. The near end is seen at `from` after
 /// `from_way`, the far one at `to` after `to_way`, 0 < from_way ≤ to_way. What is linear along the stretch is
