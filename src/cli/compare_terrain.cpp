@@ -88,7 +88,7 @@ std::vector<ComparisonRow> plotted_rows(const std::vector<TerrainMethodRow>& row
   for (const TerrainMethodRow& row : rows) {
     plotted.push_back({.method = row.method,
                        .parameters = parameters_of(row),
-                       .quantity = name_of(row.definition),
+                       .quantity = name_of(row.quantity),
                        .cost = row.cost,
                        .error = {.rmse = row.error.rmse, .bias = row.error.bias}});
   }
@@ -97,7 +97,8 @@ std::vector<ComparisonRow> plotted_rows(const std::vector<TerrainMethodRow>& row
 
 void draw_methods(StagedFolder& folder, const TerrainReportInput& input, Plots& plots) {
   std::vector<ParetoPanel> panels;
-  for (const TerrainSkyText& text : terrain_skies()) panels.push_back({.quantity = text.name});
+  for (const TerrainQuantity& quantity : terrain_quantities())
+    panels.push_back({.quantity = name_of(quantity)});
   plots.draw(folder, {"terrain_methods.svg", "terrain_methods.png"}, [&](const auto& paths) {
     plot_pareto(paths[0], paths[1], plotted_rows(input.study.methods), panels, input.map_name);
   });

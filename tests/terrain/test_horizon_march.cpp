@@ -6,8 +6,8 @@
 #include "heightlight/files.h"
 #include "shared_data.h"
 #include "terrain/horizon_march.h"
-#include "terrain/horizon_means.h"
-#include "terrain/texel_slices.h"
+#include "terrain/marched_quantities.h"
+#include "terrain/terrain_truth.h"
 #include "test_maps.h"
 
 // The usual algorithm for horizons, as terrain tools have it: by hand, and against maps that they made.
@@ -53,11 +53,12 @@ Image<double> dozier_sky(const Surface& surface, int azimuths, CellDistance dist
     const double azimuth = pi / 2 - 2 * pi * k / azimuths;
     const Map slopes = march_horizon(surface, {.azimuth_rad = azimuth, .distance = distance});
     for (std::size_t i = 0; i < sky.size(); ++i) {
-      const SliceNormal normal = slice_normal(surface, i, AzimuthDirection(azimuth));
+      const Vector3& normal = surface.normal.values[i];
+      const double along = double{normal.x} * std::cos(azimuth) + double{normal.y} * std::sin(azimuth);
       const double zenith = pi / 2 - std::atan(std::max(0.0, double{slopes.values[i]}));
       const double sine = std::sin(zenith);
       sky.values[i] +=
-          (normal.up * sine * sine + normal.along * (zenith - sine * std::cos(zenith))) / azimuths;
+          (double{normal.z} * sine * sine + along * (zenith - sine * std::cos(zenith))) / azimuths;
     }
   }
   return sky;
@@ -99,40 +100,47 @@ TEST_CASE("a march steps by the shorter side of a cell", "[terrain]") {
   CHECK(march_horizon(surface, {.azimuth_rad = pi / 2, .reach = 12})(4, 1) > 0.2);
 }
 
-TEST_CASE("definitions of a level receiver amid an even horizon", "[terrain]") {
-  const double horizon = GENERATE(0.0, 0.3, 1.2);
-  const SliceNormal level{0, 1};
-  const auto value = [&](TerrainSky definition, double slope) {
-    SkySum sum;
-    for (int k = 0; k < 5; ++k) sum.add(definition, level, slope);
-    return sum.value();
-  };
-  const double slope = std::tan(horizon);
-  CHECK(value(TerrainSky::sky_view_factor, slope) == Approx(std::pow(std::cos(horizon), 2)));
-  CHECK(value(TerrainSky::svf_tilted, slope) == Approx(std::pow(std::cos(horizon), 2)));
-  CHECK(value(TerrainSky::svf_horizontal, slope) == Approx(std::pow(std::cos(horizon), 2)));
-  CHECK(value(TerrainSky::svf_solid_angle, slope) == Approx(1 - std::sin(horizon)));
-  CHECK(value(TerrainSky::mean_cos_h, slope) == Approx(std::cos(horizon)));
-  CHECK(value(TerrainSky::openness_positive, slope) == Approx(pi / 2 - horizon));
-  // Below the horizontal only an openness looks on; where there is no surface not even that.
-  for (const TerrainSkyText& text : terrain_skies()) {
-    const bool looks = text.definition == TerrainSky::openness_positive;
-    INFO(text.name << ": " << text.formula);
-    CHECK(value(text.definition, -slope) == Approx(looks ? pi / 2 + horizon : 1));
-    CHECK(value(text.definition, kNothing) == Approx(looks ? pi / 2 : 1));
-    CHECK(name_of(text.definition) == std::string(text.name));
-  }
+/// What marches find at the middle of a map.
+double marched(const Surface& surface, const TerrainQuantity& quantity) {
+  const Map map = march_quantities(surface, 64, {}, {quantity})[0].map;
+  return double{map(surface.height() / 2, surface.width() / 2)};
+}
+
+TEST_CASE("marched quantities of a level receiver amid a round wall are what their formulas say",
+          "[terrain]") {
+  // The wall stands from a distance of 10 on; its inner rim of cells hides all that is beyond.
+  const double wall = 6;
+  const Surface surface = build_surface(make_map(41, 41, Boundary::open, [&](int row, int column) {
+    return std::hypot(row - 20, column - 20) > 9.5 ? wall : 0.0;
+  }));
+  const double h = std::atan(wall / 10);
+  const double margin = 0.02;  // discretisation: the rim is not round
+  CHECK(marched(surface, {SkyDefinition::svf_tilted, BelowHorizontal::sky}) ==
+        Approx(std::pow(std::cos(h), 2)).margin(margin));
+  CHECK(marched(surface, {SkyDefinition::svf_tilted, BelowHorizontal::ground}) ==
+        Approx(std::pow(std::cos(h), 2)).margin(margin));
+  CHECK(marched(surface, {.definition = SkyDefinition::svf_horizontal}) ==
+        Approx(std::pow(std::cos(h), 2)).margin(margin));
+  CHECK(marched(surface, {.definition = SkyDefinition::svf_solid_angle}) ==
+        Approx(1 - std::sin(h)).margin(margin));
+  CHECK(marched(surface, {.definition = SkyDefinition::mean_cos_h}) == Approx(std::cos(h)).margin(margin));
+  CHECK(marched(surface, {.definition = SkyDefinition::openness_positive}) ==
+        Approx(pi / 2 - h).margin(margin));
 }
 
 TEST_CASE("of an open slope the tangent plane hides nothing, the horizontal its lower part", "[terrain]") {
   const Surface slope = build_surface(
-      make_map(15, 15, Boundary::open, [](int row, int column) { return 0.05 * column + 0.02 * row; }));
-  const auto found =
-      walk_definitions(slope, 128, {TerrainSky::sky_view_factor, TerrainSky::svf_tilted});
+      make_map(15, 15, Boundary::open, [](int row, int column) { return 0.5 * column + 0.2 * row; }));
   const double cosine = double{slope.normal(7, 7).z};
   REQUIRE(cosine < 0.9);
-  CHECK(found[0].map(7, 7) == Approx(1).margin(1e-6));
-  CHECK(found[1].map(7, 7) == Approx((1 + cosine) / 2).margin(1e-4));  // discretisation: azimuths
+  const TerrainQuantity below_sky{SkyDefinition::svf_tilted, BelowHorizontal::sky};
+  const TerrainQuantity below_ground{SkyDefinition::svf_tilted, BelowHorizontal::ground};
+  // Discretisation: the nearest cell may lie higher than the ray, which costs sky; and azimuths.
+  CHECK(marched(slope, below_sky) == Approx(1).margin(0.02));
+  CHECK(marched(slope, below_ground) == Approx((1 + cosine) / 2).margin(0.02));
+  const std::vector<double> exact = find_exactly(slope, 128, {7 * 15 + 7}, below_ground);
+  CHECK(exact[0] == Approx((1 + cosine) / 2).margin(1e-4));  // discretisation: azimuths
+  CHECK(find_exactly(slope, 128, {7 * 15 + 7}, below_sky)[0] == Approx(1).margin(1e-6));
 }
 
 TEST_CASE("with 16 azimuths, and ways along the ray, a march is that of SAGA GIS", "[terrain]") {
@@ -153,8 +161,8 @@ TEST_CASE("with distances of cells a march comes near that of rastertools", "[te
   const Surface surface = build_surface(load_shared(*dem, 0.5).map);
   const Heightmap reference = load_shared(*theirs, 0.5).map;
   const auto rms = [&](CellDistance distance) {
-    const auto found =
-        march_definitions(surface, 16, {.reach = 50, .distance = distance}, {TerrainSky::mean_cos_h});
+    const auto found = march_quantities(surface, 16, {.reach = 50, .distance = distance},
+                                        {{.definition = SkyDefinition::mean_cos_h}});
     Image<double> values(surface.width(), surface.height());
     for (std::size_t i = 0; i < values.size(); ++i) values.values[i] = double{found[0].map.values[i]};
     return rms_inside(values, reference, 52);
@@ -167,7 +175,7 @@ TEST_CASE("a march is the same for any number of threads", "[terrain]") {
   const Surface surface = build_surface(make_rough_map(40, 30, Boundary::open, 0.1, 0, 3));
   const auto with_threads = [&](int threads) {
     const ThreadScope scope(threads);
-    return march_definitions(surface, 8, {.reach = 20}, {TerrainSky::svf_tilted})[0].map;
+    return march_quantities(surface, 8, {.reach = 20}, terrain_quantities())[1].map;
   };
   CHECK(with_threads(1) == with_threads(3));
 }

@@ -40,19 +40,19 @@ TEST_CASE("the truth of definitions is that of exact walks", "[terrain]") {
   REQUIRE(receivers.size() == 60);
   CHECK(std::set<std::size_t>(receivers.begin(), receivers.end()).size() == 60);
   CHECK(std::is_sorted(receivers.begin(), receivers.end()));
-  const auto values = find_exact_definitions(surface, 32, receivers, {TerrainSky::sky_view_factor});
+  const std::vector<double> values = find_exactly(surface, 32, receivers, {SkyDefinition::svf_tilted});
   const ExactWalker walker(surface, 32);
   SliceView view;
   for (std::size_t i = 0; i < receivers.size(); ++i) {
     walker.view(static_cast<int>(receivers[i]) / 20, static_cast<int>(receivers[i]) % 20, view);
-    CHECK(values[0][i] == Approx(view.sky_view_factor).margin(1e-6));  // the normal is made of floats
+    CHECK(values[i] == Approx(view.sky_view_factor).margin(1e-9));  // identity
   }
   CHECK(pick_receivers(surface, 10000, 1).size() == surface.map.height.size() - count_missing(surface.map));
 }
 
 TEST_CASE("differences are measured", "[terrain]") {
   std::vector<double> differences{0.1, -0.3, 0.1, 0.1};
-  const DefinitionError error = measure_differences(differences);
+  const QuantityError error = measure_differences(differences);
   CHECK(error.bias == Approx(0).margin(1e-15));
   CHECK(error.rmse == Approx(std::sqrt(0.03)));
   CHECK(error.p95 == Approx(0.3 - 0.15 * 0.2));
@@ -111,15 +111,14 @@ TEST_CASE("a study compares methods, and its errors do not depend on threads", "
   for (std::size_t i = 0; i < study.trial.rows.size(); ++i)
     CHECK(study.trial.rows[i].error.rmse == other.trial.rows[i].error.rmse);
   CHECK(study.receivers == surface.map.height.size());
-  // Two marches of four azimuths and two reaches, the second all; walks, and exact horizons; three plans of
-  // A.
-  REQUIRE(study.methods.size() == terrain_skies().size() * (2 * 4 * 2 + 4 + 4) + 3);
+  // Two marches of four azimuths and two reaches, the second all; walks, and exact horizons; three plans.
+  REQUIRE(study.methods.size() == terrain_quantities().size() * (2 * 4 * 2 + 4 + 4 + 3));
   REQUIRE(study.methods.size() == other.methods.size());
-  const auto rmse = [&](const std::string& method, int azimuths, TerrainSky definition) {
+  const auto rmse = [&](const std::string& method, int azimuths, const TerrainQuantity& quantity) {
     const auto row =
         std::find_if(study.methods.begin(), study.methods.end(), [&](const TerrainMethodRow& one) {
           return one.method == method && one.azimuths == azimuths && one.reach == 0 &&
-                 one.definition == definition;
+                 one.quantity == quantity;
         });
     REQUIRE(row != study.methods.end());
     return row->error.rmse;
@@ -132,11 +131,11 @@ TEST_CASE("a study compares methods, and its errors do not depend on threads", "
     CHECK(row.per_megatexel == Approx(row.cost.core / (48 * 48 * 1e-6)));
     if (row.error_wanted > 0) CHECK(row.error.rmse < 1.5 * row.error_wanted);
   }
-  for (const TerrainSkyText& text : terrain_skies()) {
-    INFO(text.name);
-    CHECK(rmse(kExactHorizonMethod, 64, text.definition) <
-          0.2 * rmse(kExactHorizonMethod, 8, text.definition));
-    CHECK(rmse(kExactHorizonMethod, 64, text.definition) < 0.2 * rmse(kRayMarchMethod, 64, text.definition));
+  for (const TerrainQuantity& quantity : terrain_quantities()) {
+    INFO(name_of(quantity));
+    CHECK(rmse(kExactHorizonMethod, 64, quantity) < 0.2 * rmse(kExactHorizonMethod, 8, quantity));
+    CHECK(rmse(kExactHorizonMethod, 64, quantity) < 0.2 * rmse(kRayMarchMethod, 64, quantity));
+    CHECK(rmse(kWalkMethod, 64, quantity) < 0.3 * rmse(kRayMarchMethod, 64, quantity));
   }
   const ScratchFolder folder;
   write_terrain_forms_csv(folder / "forms.csv", study.trial.rows);

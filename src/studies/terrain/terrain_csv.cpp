@@ -26,13 +26,14 @@ void write_terrain_forms_csv(const std::filesystem::path& path, const std::vecto
 void write_terrain_methods_csv(const std::filesystem::path& path, const std::vector<TerrainMethodRow>& rows) {
   write_file(path, [&](std::FILE* file) {
     fmt::print(file,
-               "method,azimuths,reach_cells,error_wanted,definition,seconds,core_seconds,"
+               "method,azimuths,reach_cells,error_wanted,definition,below_horizontal,seconds,core_seconds,"
                "core_seconds_per_megatexel,rmse,bias,p95\n");
     for (const TerrainMethodRow& row : rows) {
-      fmt::print(file, "{},{},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n", row.method,
+      fmt::print(file, "{},{},{},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n", row.method,
                  unless_zero(row.azimuths), unless_zero(row.reach), unless_zero(row.error_wanted),
-                 name_of(row.definition), row.cost.wall, row.cost.core, row.per_megatexel, row.error.rmse,
-                 row.error.bias, row.error.p95);
+                 facts_of(row.quantity.definition).name,
+                 row.quantity.below == BelowHorizontal::ground ? "ground" : "sky", row.cost.wall,
+                 row.cost.core, row.per_megatexel, row.error.rmse, row.error.bias, row.error.p95);
     }
   });
 }

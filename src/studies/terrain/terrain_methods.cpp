@@ -8,7 +8,7 @@
 #include "base/percentile.h"
 #include "base/progress.h"
 #include "heightlight/solve.h"
-#include "terrain/horizon_means.h"
+#include "terrain/marched_quantities.h"
 
 namespace heightlight {
 namespace {
@@ -17,12 +17,6 @@ constexpr int kTriedAzimuths[] = {8, 16, 32, 64};
 constexpr int kReaches[] = {10, 50, 100, 1000, 0};  // cells; 0: all
 constexpr double kErrors[] = {0.01, 0.003, 0.001};
 
-std::vector<TerrainSky> all_definitions() {
-  std::vector<TerrainSky> definitions;
-  for (const TerrainSkyText& text : terrain_skies()) definitions.push_back(text.definition);
-  return definitions;
-}
-
 std::vector<double> values_at(const Map& map, const std::vector<std::size_t>& receivers) {
   std::vector<double> values;
   values.reserve(receivers.size());
@@ -30,10 +24,11 @@ std::vector<double> values_at(const Map& map, const std::vector<std::size_t>& re
   return values;
 }
 
-std::vector<FoundSky> at_receivers(const std::vector<DefinitionMap>& maps, const TerrainTruth& truth) {
-  std::vector<FoundSky> found;
-  for (const DefinitionMap& one : maps)
-    found.push_back({one.definition, values_at(one.map, truth.receivers), one.cost});
+std::vector<FoundQuantity> march(const Surface& surface, const TerrainTruth& truth, int azimuths,
+                                 const MarchOptions& options) {
+  std::vector<FoundQuantity> found;
+  for (const QuantityMap& one : march_quantities(surface, azimuths, options, terrain_quantities()))
+    found.push_back({one.quantity, values_at(one.map, truth.receivers), one.cost});
   return found;
 }
 
@@ -48,9 +43,7 @@ void add_marches(const Surface& surface, const TerrainTruth& truth, std::vector<
                            .azimuths = azimuths,
                            .reach = reach,
                            .run = [&surface, &truth, azimuths, reach, distance] {
-                             const MarchOptions march{.reach = reach, .distance = distance};
-                             return at_receivers(
-                                 march_definitions(surface, azimuths, march, all_definitions()), truth);
+                             return march(surface, truth, azimuths, {.reach = reach, .distance = distance});
                            }});
       }
     }
@@ -58,38 +51,41 @@ void add_marches(const Surface& surface, const TerrainTruth& truth, std::vector<
 }
 
 /// Exact horizons are found one receiver after the other, so that the truth's tell what all would cost. Each
-/// definition is found alone.
-std::vector<FoundSky> walk_exactly(const Surface& surface, const TerrainTruth& truth, int azimuths,
-                                   const Watch& watch) {
+/// quantity is found alone.
+std::vector<FoundQuantity> walk_exactly(const Surface& surface, const TerrainTruth& truth, int azimuths,
+                                        const Watch& watch) {
   const double texels = static_cast<double>(surface.map.height.size() - count_missing(surface.map));
   const double times = texels / static_cast<double>(truth.receivers.size());
-  std::vector<FoundSky> found;
-  for (const TerrainSky definition : all_definitions()) {
+  std::vector<FoundQuantity> found;
+  for (const TerrainQuantity& quantity : terrain_quantities()) {
     const Stopwatch stopwatch;
-    auto values = find_exact_definitions(surface, azimuths, truth.receivers, {definition}, watch);
-    found.push_back({definition, std::move(values[0]), times * stopwatch.elapsed()});
+    std::vector<double> values = find_exactly(surface, azimuths, truth.receivers, quantity, watch);
+    found.push_back({quantity, std::move(values), times * stopwatch.elapsed()});
   }
   return found;
 }
 
-std::vector<FoundSky> solve_sky(const Surface& surface, const TerrainTruth& truth, double error,
+/// Each quantity alone, with its plan.
+std::vector<FoundQuantity> walk(const Surface& surface, const TerrainTruth& truth, const Accuracy& accuracy,
                                 const Watch& watch) {
-  Request request;
-  request.wanted.sky = true;
-  request.accuracy.error = error;
-  request.checks.sky = false;
-  request.watch = watch;
-  const Stopwatch stopwatch;
-  const Results results = solve(surface, request);
-  return {{TerrainSky::sky_view_factor, values_at(results.sky_view_factor, truth.receivers),
-           stopwatch.elapsed()}};
+  std::vector<FoundQuantity> found;
+  for (const TerrainQuantity& quantity : terrain_quantities()) {
+    const Request request{.wanted = {.definitions = {quantity.definition}, .below = quantity.below},
+                          .accuracy = accuracy,
+                          .checks = {.sky = false},
+                          .watch = watch};
+    const Stopwatch stopwatch;
+    const Results results = solve(surface, request);
+    found.push_back({quantity, values_at(results.definitions[0], truth.receivers), stopwatch.elapsed()});
+  }
+  return found;
 }
 
 /// The least of up to three runs' costs, as least_cost has it.
-std::vector<FoundSky> run_timed(const TerrainMethod& method) {
-  std::vector<FoundSky> found;
+std::vector<FoundQuantity> run_timed(const TerrainMethod& method) {
+  std::vector<FoundQuantity> found;
   least_cost([&] {
-    std::vector<FoundSky> again = method.run();
+    std::vector<FoundQuantity> again = method.run();
     for (std::size_t d = 0; d < found.size(); ++d) {
       if (found[d].cost.core < again[d].cost.core) again[d].cost = found[d].cost;
     }
@@ -100,8 +96,8 @@ std::vector<FoundSky> run_timed(const TerrainMethod& method) {
 
 }  // namespace
 
-DefinitionError measure_differences(std::vector<double>& differences) {
-  DefinitionError error;
+QuantityError measure_differences(std::vector<double>& differences) {
+  QuantityError error;
   double squares = 0;
   for (double& difference : differences) {
     error.bias += difference;
@@ -126,23 +122,21 @@ std::vector<TerrainMethod> terrain_methods(const Surface& surface, const Terrain
   std::vector<TerrainMethod> methods;
   add_marches(surface, truth, methods);
   const Watch quiet{.tell = {}, .stopped = watch.stopped};
-  for (const int azimuths : kTriedAzimuths) {
-    methods.push_back({.name = kWalkMethod, .azimuths = azimuths, .run = [&surface, &truth, azimuths, quiet] {
-                         return at_receivers(walk_definitions(surface, azimuths, all_definitions(), quiet),
-                                             truth);
-                       }});
-  }
+  const auto add_walk = [&](const char* name, int azimuths, double error) {
+    const Accuracy accuracy{.error = error > 0 ? error : kErrorOfGivenAzimuths, .azimuths = azimuths};
+    methods.push_back(
+        {.name = name, .azimuths = azimuths, .error = error, .run = [&surface, &truth, accuracy, quiet] {
+           return walk(surface, truth, accuracy, quiet);
+         }});
+  };
+  for (const int azimuths : kTriedAzimuths) add_walk(kWalkMethod, azimuths, 0);
   for (const int azimuths : kTriedAzimuths) {
     methods.push_back(
         {.name = kExactHorizonMethod, .azimuths = azimuths, .run = [&surface, &truth, azimuths, quiet] {
            return walk_exactly(surface, truth, azimuths, quiet);
          }});
   }
-  for (const double error : kErrors) {
-    methods.push_back({.name = kPlannedMethod, .error = error, .run = [&surface, &truth, error, quiet] {
-                         return solve_sky(surface, truth, error, quiet);
-                       }});
-  }
+  for (const double error : kErrors) add_walk(kPlannedMethod, 0, error);
   return methods;
 }
 
@@ -154,14 +148,14 @@ std::vector<TerrainMethodRow> compare_terrain_methods(const Surface& surface, co
   Progress progress("methods", static_cast<std::int64_t>(methods.size()), watch);
   for (const TerrainMethod& method : methods) {
     progress.throw_if_stopped();
-    for (FoundSky& found : run_timed(method)) {
-      const std::vector<double>& exact = truth.of(found.definition);
+    for (FoundQuantity& found : run_timed(method)) {
+      const std::vector<double>& exact = truth.of(found.quantity);
       for (std::size_t i = 0; i < exact.size(); ++i) found.values[i] -= exact[i];
       rows.push_back({.method = method.name,
                       .azimuths = method.azimuths,
                       .reach = method.reach,
                       .error_wanted = method.error,
-                      .definition = found.definition,
+                      .quantity = found.quantity,
                       .cost = found.cost,
                       .per_megatexel = found.cost.core / megatexels,
                       .error = measure_differences(found.values)});

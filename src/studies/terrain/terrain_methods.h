@@ -11,11 +11,11 @@
 
 namespace heightlight {
 
-/// One definition as a method finds it.
-struct FoundSky {
-  TerrainSky definition = TerrainSky::sky_view_factor;
+/// One quantity as a method finds it.
+struct FoundQuantity {
+  TerrainQuantity quantity;
   std::vector<double> values;  ///< of the truth's receivers
-  Cost cost;                   ///< of the whole map, of that definition alone
+  Cost cost;                   ///< of the whole map, of that quantity alone
 };
 
 /// Names of methods.
@@ -25,24 +25,27 @@ inline constexpr const char* kWalkMethod = "horizon walk";
 inline constexpr const char* kExactHorizonMethod = "exact horizons";
 inline constexpr const char* kPlannedMethod = "planned walk";
 
+/// RMSE that horizon walks along given azimuths aim at but for what few azimuths cost.
+inline constexpr double kErrorOfGivenAzimuths = 0.001;
+
 /// A method with its parameters.
 struct TerrainMethod {
   std::string name;
   int azimuths = 0;  ///< 0: chosen for the error
   int reach = 0;     ///< in steps of a cell; 0: as far as the map goes
   double error = 0;  ///< RMSE wanted; 0: none is
-  std::function<std::vector<FoundSky>()> run;
+  std::function<std::vector<FoundQuantity>()> run;
 };
 
-/// How far a definition is from the truth, found so.
-struct DefinitionError {
+/// How far a quantity is from the truth, found so.
+struct QuantityError {
   double rmse = 0;
   double bias = 0;
   double p95 = 0;  ///< 95 % of the receivers err by no more
 };
 
 /// Over at least one difference; they are reordered.
-DefinitionError measure_differences(std::vector<double>& differences);
+QuantityError measure_differences(std::vector<double>& differences);
 
 /// One line of the table.
 struct TerrainMethodRow {
@@ -50,10 +53,10 @@ struct TerrainMethodRow {
   int azimuths = 0;
   int reach = 0;
   double error_wanted = 0;
-  TerrainSky definition = TerrainSky::sky_view_factor;
+  TerrainQuantity quantity = {};
   Cost cost = {};
   double per_megatexel = 0;  ///< core-seconds
-  DefinitionError error = {};
+  QuantityError error = {};
 };
 
 /// "16 azimuths, 100 cells"

@@ -166,15 +166,15 @@ std::string cost_and_error(const TerrainMethodRow& row) {
                      row.error.bias, row.per_megatexel);
 }
 
-/// Of one definition in the usual way, and by as many walks; of A also by a walk planned for an error.
-void write_usual_cost(std::FILE* file, const TerrainStudy& study, TerrainSky definition) {
+/// Of one quantity in the usual way, by as many walks, and by a walk planned for an error.
+void write_usual_cost(std::FILE* file, const TerrainStudy& study, const TerrainQuantity& quantity) {
   constexpr int kUsualAzimuths = 16;
   constexpr int kUsualReach = 100;
   fmt::print(file, "* **What do {} azimuths and {} cells of reach cost, of {}?**", kUsualAzimuths,
-             kUsualReach, as_markdown(name_of(definition)));
+             kUsualReach, as_markdown(name_of(quantity)));
   const TerrainMethodRow* planned = nullptr;
   for (const TerrainMethodRow& row : study.methods) {
-    if (row.definition != definition) continue;
+    if (row.quantity != quantity) continue;
     if (row.error_wanted > 0) planned = &row;  // the last is for the smallest error
     const bool is_march = row.method == kRayMarchMethod || row.method == kCellMarchMethod;
     const bool is_usual = row.azimuths == kUsualAzimuths && row.reach == (is_march ? kUsualReach : 0);
@@ -189,18 +189,18 @@ void write_methods(std::FILE* file, const TerrainStudy& study) {
   fmt::print(
       file,
       "## What sky view factors cost\n\nErrors on {} receivers against exact horizons along {} "
-      "azimuths. Core-seconds per megatexel, each definition found alone. Nearest-cell marching steps "
+      "azimuths. Core-seconds per megatexel, each quantity found alone. Nearest-cell marching steps "
       "by a cell along the ray, and takes the height of the nearest cell and the way along the ray, or "
-      "the distance of the cell's middle. Horizon walks find no horizon below the tangent plane, which "
-      "those of a level receiver can have. Exact horizons are timed on the receivers. Sums over azimuths "
-      "are the same for all three, and take most of the time of marches on slopes; planned walks have "
-      "their own.\n\n",
-      study.receivers, kTruthAzimuths);
-  for (const TerrainSkyText& text : terrain_skies()) {
-    fmt::print(file, "### {}: {}\n\n", text.name, as_markdown(text.formula));
+      "the distance of the cell's middle; its sums over azimuths take most of its time on slopes. Exact "
+      "horizons are timed on the receivers. Horizon walks choose how closely they look, for an error of "
+      "{:g} where the azimuths are given, and planned walks how many azimuths, too; that takes its time on "
+      "small maps.\n\n",
+      study.receivers, kTruthAzimuths, kErrorOfGivenAzimuths);
+  for (const TerrainQuantity& quantity : terrain_quantities()) {
+    fmt::print(file, "### {}: {}\n\n", name_of(quantity), as_markdown(formula_of(quantity)));
     begin_table(file, {"method", "parameters", "core-seconds per megatexel", "RMSE", "bias", "p95"});
     for (const TerrainMethodRow& row : study.methods) {
-      if (row.definition != text.definition) continue;
+      if (row.quantity != quantity) continue;
       fmt::print(file, "| {} | {} | {:.3g} | {:.5f} | {:+.5f} | {:.5f} |\n", row.method, parameters_of(row),
                  row.per_megatexel, row.error.rmse, row.error.bias, row.error.p95);
     }
@@ -217,8 +217,8 @@ void write_terrain_report(const std::filesystem::path& path, const TerrainReport
     const double window = windows[windows.size() / 2];
     write_map(file, input);
     for (const TrialLight& light : study.trial.lights) write_best_form(file, study, light.name, window);
-    write_usual_cost(file, study, TerrainSky::sky_view_factor);
-    write_usual_cost(file, study, TerrainSky::svf_tilted);
+    for (const BelowHorizontal below : {BelowHorizontal::sky, BelowHorizontal::ground})
+      write_usual_cost(file, study, {.definition = SkyDefinition::svf_tilted, .below = below});
     std::fputc('\n', file);
     write_truth(file, study);
     write_formulas(file);

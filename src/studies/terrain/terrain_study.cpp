@@ -1,12 +1,12 @@
 #include "terrain/terrain_study.h"
 
 #include "heightlight/error.h"
-#include "terrain/horizon_means.h"
+#include "terrain/marched_quantities.h"
 
 namespace heightlight {
 
 std::uint64_t study_bytes_per_texel(std::size_t albedos) {
-  return trial_bytes_per_texel(albedos) + definition_bytes_per_texel(terrain_skies().size());
+  return trial_bytes_per_texel(albedos) + march_bytes_per_texel(terrain_quantities().size());
 }
 
 TerrainStudy study_terrain(const Surface& surface, TrialOptions options) {

@@ -8,12 +8,9 @@
 #include "heightlight/closed_forms.h"
 #include "heightlight/solve.h"
 #include "heightlight/terrain_forms.h"
-#include "terrain/horizon_means.h"
 
 namespace heightlight {
 namespace {
-
-constexpr int kUpperAzimuths = 64;  // of V_d, which only C_t hangs on
 
 /// What forms are told of the surface, per texel; 0 where the sample is missing.
 struct TerrainFactors {
@@ -23,21 +20,6 @@ struct TerrainFactors {
   TexelVector seen_weight;    ///< V/n_z
   TexelVector even;           ///< 1
 };
-
-/// Plans are made for the light of an even sky. A sun's, with its shadows, differs more from place to place,
-/// so that gathers look in more directions, and more closely: on the maps of plots/make-terrain that halves
-/// the error under the sun and more.
-HorizonPlan plan_truth(const Surface& surface, Request request) {
-  constexpr double kShare = 0.4;  // of the error wanted
-  constexpr int kGatherAzimuths = 32;
-  constexpr int kGatherFineness = 16;
-  request.accuracy.error *= kShare;
-  HorizonPlan plan = find_operator(surface, request).plan;
-  WalkOptions& gather = plan.gather.walk;
-  gather.azimuths = std::max(gather.azimuths, kGatherAzimuths);
-  gather.fineness = std::max(gather.fineness, kGatherFineness);
-  return plan;
-}
 
 TexelVector present_values(const Surface& surface, const std::function<double(std::size_t)>& value) {
   TexelVector values(surface.map.height.size(), 0.0);
@@ -121,6 +103,16 @@ class Trial {
   }
 
  private:
+  /// V_d: A with all that lies below the horizontal dark.
+  Map find_upper_sky() const {
+    return solve(surface_, {.wanted = {.sky = true, .below = BelowHorizontal::ground},
+                            .accuracy = {.error = options_.error, .seed = options_.seed},
+                            .checks = {.sky = false},
+                            .limits = {.memory = options_.memory},
+                            .watch = options_.watch})
+        .sky_view_factor;
+  }
+
   void find_truth() {
     Request request;
     request.wanted.sky = true;
@@ -129,20 +121,16 @@ class Trial {
     request.accuracy = {.error = options_.error, .seed = options_.seed};
     request.limits.memory = options_.memory;
     request.watch = options_.watch;
-    request.accuracy.plan = plan_truth(surface_, request);
-    const PlannedTransport transport = find_operator(surface_, request);
-    request.transport = &transport;
     Results under_sky = solve(surface_, request);
     const Map& sky = under_sky.sky_view_factor;
-    const auto upper = walk_definitions(surface_, kUpperAzimuths, {TerrainSky::svf_tilted}, options_.watch);
-    factors_ = find_factors(surface_, sky, upper[0].map);
+    const Map upper = find_upper_sky();
+    factors_ = find_factors(surface_, sky, upper);
     results_.mean_sky = mean_over_present(surface_, factors_.sky);
     results_.mean_upper_sky = mean_over_present(
-        surface_, present_values(surface_, [&](std::size_t i) { return double{upper[0].map.values[i]}; }));
+        surface_, present_values(surface_, [&](std::size_t i) { return double{upper.values[i]}; }));
     results_.expected_seen = expected_seen(sky, surface_).value;
     results_.deep_seen = find_deep_seen(under_sky);
-    results_.lights.push_back(
-        {.name = "sky", .direct = transport.transport->direct, .totals = {}, .evidence = {}});
+    results_.lights.push_back({.name = "sky", .direct = factors_.sky, .totals = {}, .evidence = {}});
     take(std::move(under_sky));
 
     const Stopwatch stopwatch;

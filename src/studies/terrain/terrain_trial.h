@@ -30,9 +30,9 @@ struct TerrainFormRow {
   std::string light = {};  ///< "sky" or "sun"
   double albedo = 0;
   std::string form = {};
-  double window = 0;           ///< radius, world units; 0 where the form takes no means
-  DefinitionError error = {};  ///< of E/π, form − truth, over all texels that are present
-  double reflected = 0;        ///< mean of what terrain reflects, by the truth, E/π
+  double window = 0;         ///< radius, world units; 0 where the form takes no means
+  QuantityError error = {};  ///< of E/π, form − truth, over all texels that are present
+  double reflected = 0;      ///< mean of what terrain reflects, by the truth, E/π
 
   /// Of what is reflected, in the mean.
   double relative_rmse() const { return reflected > 0 ? error.rmse / reflected : 0; }

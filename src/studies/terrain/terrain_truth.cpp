@@ -6,8 +6,8 @@
 #include "base/hash.h"
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "terrain/texel_slices.h"
-#include "visibility/exact_walk.h"
+#include "solve/definitions.h"
+#include "visibility/exact_sky.h"
 
 namespace heightlight {
 
@@ -26,41 +26,39 @@ std::vector<std::size_t> pick_receivers(const Surface& surface, int most, std::u
   return receivers;
 }
 
-std::vector<std::vector<double>> find_exact_definitions(const Surface& surface, int azimuths,
-                                                        const std::vector<std::size_t>& receivers,
-                                                        const std::vector<TerrainSky>& definitions,
-                                                        const Watch& watch) {
+std::vector<double> find_exactly(const Surface& surface, int azimuths,
+                                 const std::vector<std::size_t>& receivers, const TerrainQuantity& quantity,
+                                 const Watch& watch) {
   const ExactWalker walker(surface, azimuths);
   const auto width = static_cast<std::size_t>(surface.width());
-  std::vector<std::vector<double>> values(definitions.size(), std::vector<double>(receivers.size()));
+  std::vector<double> values(receivers.size());
   Progress progress("exact horizons", static_cast<std::int64_t>(receivers.size()), watch);
   parallel_for(
       static_cast<std::int64_t>(receivers.size()),
       [&](std::int64_t i) {
         const auto at = static_cast<std::size_t>(i);
-        const std::size_t texel = receivers[at];
-        std::vector<SkySum> sums(definitions.size());
-        for (int k = 0; k < azimuths; ++k) {
-          const double azimuth = walker.azimuth_rad(k);
-          const double horizon =
-              walker.horizon_rad(static_cast<int>(texel / width), static_cast<int>(texel % width), azimuth);
-          const SliceNormal normal = slice_normal(surface, texel, AzimuthDirection(azimuth));
-          for (std::size_t d = 0; d < definitions.size(); ++d)
-            sums[d].add(definitions[d], normal, slope_of_horizon(horizon));
-        }
-        for (std::size_t d = 0; d < definitions.size(); ++d) values[d][at] = sums[d].value();
+        const int row = static_cast<int>(receivers[at] / width);
+        const int column = static_cast<int>(receivers[at] % width);
+        values[at] = is_of_sky(quantity.definition)
+                         ? find_exact_sky(walker, row, column, {}, quantity.below).sky_view_factor
+                         : exact_horizon_means(
+                               walker, row, column)[static_cast<std::size_t>(mean_of(quantity.definition))];
       },
       &progress);
   return values;
 }
 
 TerrainTruth find_terrain_truth(const Surface& surface, std::uint64_t seed, const Watch& watch) {
-  std::vector<TerrainSky> definitions;
-  for (const TerrainSkyText& text : terrain_skies()) definitions.push_back(text.definition);
   TerrainTruth truth;
   truth.receivers = pick_receivers(surface, kTruthReceivers, seed);
-  truth.by_name = find_exact_definitions(surface, kTruthAzimuths, truth.receivers, definitions, watch);
+  for (const TerrainQuantity& quantity : terrain_quantities())
+    truth.values.push_back(find_exactly(surface, kTruthAzimuths, truth.receivers, quantity, watch));
   return truth;
+}
+
+const std::vector<double>& TerrainTruth::of(const TerrainQuantity& quantity) const {
+  const std::vector<TerrainQuantity>& all = terrain_quantities();
+  return values[static_cast<std::size_t>(std::find(all.begin(), all.end(), quantity) - all.begin())];
 }
 
 }  // namespace heightlight

@@ -5,7 +5,7 @@
 
 #include "heightlight/surface.h"
 #include "heightlight/watch.h"
-#include "terrain/terrain_skies.h"
+#include "terrain/terrain_quantities.h"
 
 namespace heightlight {
 
@@ -17,22 +17,19 @@ inline constexpr int kTruthReceivers = 4096;
 
 /// What methods are compared with, on some receivers.
 struct TerrainTruth {
-  std::vector<std::size_t> receivers;        ///< texels that are present, rising, none twice
-  std::vector<std::vector<double>> by_name;  ///< per definition, in the order of terrain_skies()
+  std::vector<std::size_t> receivers;       ///< texels that are present, rising, none twice
+  std::vector<std::vector<double>> values;  ///< per quantity, in the order of terrain_quantities()
 
-  const std::vector<double>& of(TerrainSky definition) const {
-    return by_name[static_cast<std::size_t>(definition)];
-  }
+  const std::vector<double>& of(const TerrainQuantity& quantity) const;
 };
 
 /// All texels that are present where they are few, else a sample by a hash of `seed`.
 std::vector<std::size_t> pick_receivers(const Surface& surface, int most, std::uint64_t seed);
 
-/// Per definition, of each receiver, from exact horizons along φ_k = 2π (k + ¼)/azimuths.
-std::vector<std::vector<double>> find_exact_definitions(const Surface& surface, int azimuths,
-                                                        const std::vector<std::size_t>& receivers,
-                                                        const std::vector<TerrainSky>& definitions,
-                                                        const Watch& watch = {});
+/// A quantity of each receiver, from exact horizons along φ_k = 2π (k + ¼)/azimuths.
+std::vector<double> find_exactly(const Surface& surface, int azimuths,
+                                 const std::vector<std::size_t>& receivers, const TerrainQuantity& quantity,
+                                 const Watch& watch = {});
 
 TerrainTruth find_terrain_truth(const Surface& surface, std::uint64_t seed, const Watch& watch = {});
 
