@@ -54,9 +54,9 @@ class Operator:
     `op @ e` is F e. Made by `operator()`; two threads may use one at once.
     """
 
-    def __init__(self, surface: Any, chosen: Any) -> None:
+    def __init__(self, surface: Any, chosen: Any, direct: Any = None) -> None:
         self._surface = surface
-        self._native = _native.Operator(surface, chosen)
+        self._native = _native.Operator(surface, chosen, [] if direct is None else split_direct(direct))
         self.shape: tuple[int, int] = (surface.height, surface.width)
         self._evidence: Optional[str] = None
 
@@ -177,6 +177,7 @@ def operator(
     error: float = 2e-3,
     azimuths: Optional[int] = None,
     rays: Optional[int] = None,
+    direct: Optional[np.ndarray] = None,
     seed: int = 1,
     threads: Optional[int] = None,
     memory: Optional[int] = None,
@@ -185,7 +186,8 @@ def operator(
     """The operator of a surface: form factors, found once, for any number of solutions.
 
     Arguments as those of `sky()`. `error` is the RMSE wanted of A and of totals at albedos up to 0.8; with
-    horizon walks no form factor is stored, with `rays` or error = 0 all of them are.
+    horizon walks no form factor is stored, with `rays` or error = 0 all of them are. `direct` is light of one's own
+    whose totals are to have that error, such as the sun's: walks are planned for it, else for the sky's.
     """
     surface, _ = surface_of(height, texel, boundary)
-    return Operator(surface, settings(error, azimuths, rays, seed, threads, memory, progress))
+    return Operator(surface, settings(error, azimuths, rays, seed, threads, memory, progress), direct)

@@ -81,9 +81,9 @@ class HeightlightAccessor:
     ) -> xr.DataArray:
         """E/π of all bounces, 1 = a level open plane under a sky of radiance 1. `albedo`: a number, or an array of
         the map's shape. `direct`: E₀/π of light of one's own."""
-        op = operator(self.heightmap(texel, boundary), **options)
-        reflectance = albedo if np.ndim(albedo) == 0 else self._turn(np.asarray(albedo), texel)
         light = None if direct is None else self._turn(np.asarray(direct), texel)
+        op = operator(self.heightmap(texel, boundary), direct=light, **options)
+        reflectance = albedo if np.ndim(albedo) == 0 else self._turn(np.asarray(albedo), texel)
         total = op.solve(reflectance, light)
         return self._like(total, "irradiance", "irradiance of all bounces over that of an open plane", texel)
 

@@ -28,7 +28,7 @@ def test_sun_and_snow_are_what_the_command_bakes(command):
     )
     opened = hl.Heightmap(heights.height, heights.texel, "open")
     sun = hl.sun_irradiance(opened, 100, 40)
-    total = hl.operator(opened).solve(0.9, direct=sun)
+    total = hl.operator(opened, direct=sun).solve(0.9, direct=sun)
     for values, name in ((sun, "direct"), (total, "multibounce")):
         baked = hl.read(folder / f"o/fbm_{name}.exr")
         np.testing.assert_allclose(values, baked.height + baked.base, atol=2e-7)  # float32 above the lowest

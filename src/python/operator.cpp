@@ -40,9 +40,11 @@ class CurveSink : public BounceSink {
 /// F of one surface, found once.
 class Operator {
  public:
-  Operator(SharedSurface surface, Settings settings)
+  /// Planned for direct light of one's own, in channels, or for the sky's where there are none.
+  Operator(SharedSurface surface, Settings settings, const std::vector<Array<double>>& direct)
       : surface_(std::move(surface)), settings_(std::move(settings)) {
     Request request = make_request(settings_);
+    request.wanted.direct = read_direct(direct);
     PythonWatch watch(settings_.progress);
     request.watch = watch.for_longer();
     found_ = watch.run([&](const Watch&) { return find_operator(*surface_, request); });
@@ -88,10 +90,7 @@ class Operator {
       check_shape(channel, "albedo", surface_->height(), surface_->width());
       albedo.varying.push_back(read_texels(channel));
     }
-    for (const Array<double>& channel : direct) {
-      check_shape(channel, "direct", surface_->height(), surface_->width());
-      request.wanted.direct.push_back(read_texels(channel));
-    }
+    request.wanted.direct = read_direct(direct);
     Results results = run(request);
     py::list channels;
     for (TexelVector& channel : results.totals[0])
@@ -132,6 +131,16 @@ class Operator {
   }
 
  private:
+  /// Maps per channel.
+  std::vector<TexelVector> read_direct(const std::vector<Array<double>>& direct) const {
+    std::vector<TexelVector> channels;
+    for (const Array<double>& channel : direct) {
+      check_shape(channel, "direct", surface_->height(), surface_->width());
+      channels.push_back(read_texels(channel));
+    }
+    return channels;
+  }
+
   Request lent_request() const {
     Request request = make_request(settings_);
     request.transport = &found_;
@@ -156,10 +165,11 @@ class Operator {
 
 void add_operator(py::module_& module) {
   py::class_<Operator>(module, "Operator")
-      .def(py::init([](const std::shared_ptr<Surface>& surface, const Settings& settings) {
-             return std::make_unique<Operator>(surface, settings);
+      .def(py::init([](const std::shared_ptr<Surface>& surface, const Settings& settings,
+                       const std::vector<Array<double>>& direct) {
+             return std::make_unique<Operator>(surface, settings, direct);
            }),
-           py::arg("surface"), py::arg("settings"))
+           py::arg("surface"), py::arg("settings"), py::arg("direct"))
       .def_property_readonly("direct", &Operator::direct)
       .def_property_readonly("sky_view_factor", &Operator::sky_view_factor)
       .def_property_readonly("ambient_occlusion", &Operator::ambient_occlusion)

@@ -11,7 +11,7 @@
 namespace heightlight {
 namespace {
 
-constexpr double kError = 0.001;
+constexpr double kPlannedError = 0.001;
 constexpr double kAlbedo = 0.8;
 
 Surface rugged() { return build_surface(make_synth_map("fbm", 64, Boundary::open, 0.3)); }
@@ -22,7 +22,7 @@ TexelVector low_sun(const Surface& surface) {
 
 Request total_of(std::vector<TexelVector> direct) {
   return {.wanted = {.totals = {{.constant = {kAlbedo}}}, .direct = std::move(direct)},
-          .accuracy = {.error = kError}};
+          .accuracy = {.error = kPlannedError}};
 }
 
 double rms_difference(const TexelVector& a, const TexelVector& b) {
@@ -36,12 +36,12 @@ TEST_CASE("under a sun the first plan reaches the error wanted, by exact slices"
   const Request request = total_of({low_sun(surface)});
   const Results found = solve(surface, request);
   CHECK_FALSE(found.evidence.refined);
-  CHECK(found.evidence.total_checks[0].total_rmse < kMissed * kError);
+  CHECK(found.evidence.total_checks[0].total_rmse < kMissed * kPlannedError);
   Request exact = request;
   exact.accuracy = {.visibility = Visibility::exact_slices, .azimuths = 192};
   exact.checks.totals = false;
   const TexelVector truth = solve(surface, exact).totals[0][0];
-  CHECK(rms_difference(found.totals[0][0], truth) < kMissed * kError);  // discretisation
+  CHECK(rms_difference(found.totals[0][0], truth) < kMissed * kPlannedError);  // discretisation
 }
 
 TEST_CASE("a sun's gathers look in more directions than the sky's, wherever the plan is made", "[solve]") {
