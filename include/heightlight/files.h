@@ -94,18 +94,20 @@ void check_load_options(const LoadOptions& options);
 /// samples. Integer samples are stretched so that the lowest present is 0 and the highest `relief`; float
 /// samples are heights, and so are SRTM's, all that have a `scale` or an `offset`, signed integers with a
 /// `texel`, and integers of a TIFF that has a pixel scale, or a `texel` and no-data: they are stretched
-/// likewise only where `relief` is given. What is stretched has base 0; a level map stays level. Samples
-/// equal to `no_data` or to the value that the file itself declares, each as the stored type sees it (the
-/// nearest float, half or integer), NaN, ±infinity and transparent ones go missing. `shrink` comes last, on
-/// heights as stretched, so that the relief of what is left may be less. `width` sets the spacing along the
-/// rows, and that of an Esri grid along the columns in proportion. `memory_limit` (bytes) is checked against
-/// the header's size before samples are read. The file is opened once: its checksum is that of the bytes that
-/// were read. Throws Error naming `path` and what is wrong: missing, a directory, empty, truncated or
-/// damaged, no known format, 0 × 0, larger than memory or 2^31 samples, nothing but missing samples, heights
-/// beyond float, several parts without `part`, channels that differ without `channel`, without `texel` a
-/// GeoTIFF whose place is rotated, odd or contradicts itself (georeference.h) or lengths in feet beside heights
-/// of an unknown unit, raw samples without `size`, written to while it was read; UsageError as check_load_options does, and for a `part` or `channel` that
-/// the file does not have.
+/// likewise only where `relief` is given. A TIFF whose metadata (GDAL's) give a scale and an offset has
+/// heights, too, unless the options give others; a mask beside its samples is not read, of which a warning
+/// tells. What is stretched has base 0; a level map stays level. Samples equal to `no_data` or to the value
+/// that the file itself declares, each as the stored type sees it (the nearest float, half or integer), NaN,
+/// ±infinity and transparent ones go missing. `shrink` comes last, on heights as stretched, so that the
+/// relief of what is left may be less. `width` sets the spacing along the rows, and that of an Esri grid
+/// along the columns in proportion. `memory_limit` (bytes) is checked against the header's size before
+/// samples are read. The file is opened once: its checksum is that of the bytes that were read. Throws Error
+/// naming `path` and what is wrong: missing, a directory, empty, truncated or damaged, no known format,
+/// 0 × 0, larger than memory or 2^31 samples, nothing but missing samples, heights beyond float, several parts
+/// without `part`, channels that differ without `channel`, without `texel` a GeoTIFF whose place is rotated,
+/// odd or contradicts itself (georeference.h) or lengths in feet beside heights of an unknown unit or degrees
+/// of another body than the Earth, raw samples without `size`, written to while it was read; UsageError as
+/// check_load_options does, and for a `part` or `channel` that the file does not have.
 LoadedHeightmap load_heightmap(const std::filesystem::path& path, const LoadOptions& options,
                                std::uint64_t memory_limit);
 

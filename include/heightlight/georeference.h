@@ -28,6 +28,8 @@ struct Georeference {
   bool in_degrees = false;                   ///< these are longitudes and latitudes
   std::optional<double> metres = {};         ///< length of their unit, where they are lengths of a known unit
   std::optional<double> height_metres = {};  ///< length of the heights' unit, where the file tells it
+  /// Of the ellipsoid that degrees are of, in metres, where the file tells it: 1737400 of the moon.
+  std::optional<double> equator_radius = {};
   std::string system = {};  ///< of coordinates, as the file names it: "EPSG:32631"; empty where it names none
   std::string projection = {};    ///< text of the .prj file beside it; empty where there is none
   std::vector<GeoTag> tags = {};  ///< what says all this in a GeoTIFF, its no-data included

@@ -158,6 +158,80 @@ def test_integers_with_a_pixel_scale_are_terrain(tmp_path):
     assert read.base == hills().astype(np.int16).min()
 
 
+@pytest.mark.parametrize("nodata", [0.0, 1.0])
+@pytest.mark.parametrize("form", ["tif", "asc"])
+def test_no_data_is_nothing_but_missing(command, tmp_path, nodata, form):
+    heights = hills()
+    heights[3, 4] = nodata
+    write(tmp_path / "dem.tif", heights, nodata=nodata)
+    command("bake", "dem.tif", "--maps", "ao", "-o", "o", "--format", form, "--quiet")
+    with rasterio.open(tmp_path / f"o/dem_ao.{form}") as raster:
+        assert raster.nodata == nodata
+        assert np.array_equal(np.argwhere(raster.read_masks(1) == 0), [[3, 4]])
+
+
+def test_no_data_beyond_floats_becomes_the_lowest(command, tmp_path):
+    heights = hills().astype(np.float64)
+    heights[3, 4] = np.finfo(np.float64).min
+    write(tmp_path / "dem.tif", heights, nodata=np.finfo(np.float64).min)
+    command("bake", "dem.tif", "--maps", "ao", "-o", "o", "--quiet")
+    with rasterio.open(tmp_path / "o/dem_ao.tif") as raster:
+        assert raster.nodata == np.finfo(np.float32).min
+        assert np.array_equal(np.argwhere(raster.read_masks(1) == 0), [[3, 4]])
+
+
+def test_no_data_that_is_no_number_is_left_out(command, tmp_path):
+    write(tmp_path / "dem.tif", nodata=-99999.0)
+    data = (tmp_path / "dem.tif").read_bytes()
+    assert data.count(b"-99999\0") == 1
+    (tmp_path / "dem.tif").write_bytes(data.replace(b"-99999\0", b"absent\0"))
+    for form in ("tif", "asc"):
+        command("bake", "dem.tif", "--maps", "ao", "-o", form, "--format", form, "--quiet")
+    with rasterio.open(tmp_path / "tif/dem_ao.tif") as raster:
+        assert raster.nodata is None
+    with rasterio.open(tmp_path / "asc/dem_ao.asc") as raster:
+        assert raster.nodata == -9999
+
+
+def test_scale_and_offset_of_the_metadata_are_applied(tmp_path):
+    stored = np.round(hills() * 10).astype(np.int16)
+    write(tmp_path / "dem.tif", stored, nodata=-32768)
+    with rasterio.open(tmp_path / "dem.tif", "r+") as raster:
+        raster.scales, raster.offsets = (0.1,), (3,)
+    with pytest.warns(Warning, match="0.1 times its samples, plus 3"):
+        read = hl.read(tmp_path / "dem.tif")
+    np.testing.assert_allclose(read.height + read.base, stored * 0.1 + 3, rtol=1e-6)
+    own = hl.read(tmp_path / "dem.tif", scale=2)
+    np.testing.assert_allclose(own.height + own.base, stored * 2.0, rtol=1e-6)
+    with rasterio.open(tmp_path / "dem.tif", "r+") as raster:
+        raster.scales = (-1,)
+    with pytest.raises(OSError, match="give a positive scale"):
+        hl.read(tmp_path / "dem.tif")
+
+
+def test_a_mask_is_told_of(tmp_path):
+    with rasterio.Env(GDAL_TIFF_INTERNAL_MASK="YES"):
+        write(tmp_path / "dem.tif")
+        with rasterio.open(tmp_path / "dem.tif", "r+") as raster:
+            raster.write_mask(np.arange(ROWS * COLUMNS).reshape(ROWS, COLUMNS) > 5)
+    with pytest.warns(Warning, match="a mask of missing samples, which is not read"):
+        hl.read(tmp_path / "dem.tif")
+
+
+def test_degrees_of_the_moon_are_not_the_earths(tmp_path):
+    moon = "+proj=longlat +a=1737400 +b=1737400 +no_defs"
+    write(tmp_path / "dem.tif", crs=moon, transform=from_origin(7, 46, 0.01, 0.01))
+    with pytest.raises(OSError, match="degrees of a body that is not the Earth"):
+        hl.read(tmp_path / "dem.tif")
+    assert hl.read(tmp_path / "dem.tif", texel=210).texel == (210, 210)
+
+
+def test_samples_on_the_pole(tmp_path):
+    write(tmp_path / "dem.tif", crs="EPSG:4326", transform=from_origin(0, 90.05, 0.1, 0.1))
+    with pytest.warns(Warning, match="from north to south they widen from 0 to"):
+        hl.read(tmp_path / "dem.tif")
+
+
 GRID = "ncols 30\nnrows 40\nxllcorner 462800\nyllcorner 5655400\ncellsize 10\nNODATA_value -999\n"
 
 
@@ -180,6 +254,17 @@ def test_an_esri_grid_passes_its_projection_along(command, tmp_path, crs):
                 assert hl.read(tmp_path / "o" / name).texel == (10, 10)
     with rasterio.open(tmp_path / "o/dem_ao.tif") as tif, rasterio.open(tmp_path / "o/dem_ao.asc") as text_grid:
         np.testing.assert_array_equal(tif.read(1), text_grid.read(1).astype(np.float32))
+
+
+def test_a_projection_in_keywords_keeps_its_lines(command, tmp_path):
+    (tmp_path / "dem.asc").write_text(GRID + "\n".join(" ".join(map(str, row)) for row in hills()) + "\n")
+    text = "Projection    UTM\nZone          31\nDatum         WGS84\nZunits        NO\nUnits         METERS\nParameters\n"
+    (tmp_path / "dem.prj").write_text(text)
+    for form in ("tif", "asc"):
+        command("bake", "dem.asc", "--maps", "ao", "-o", "o", "--format", form, "--quiet")
+        with rasterio.open(tmp_path / "dem.asc") as before, rasterio.open(tmp_path / f"o/dem_ao.{form}") as after:
+            assert after.crs == before.crs == "EPSG:32631"
+    assert (tmp_path / "o/dem_ao.prj").read_text() == text
 
 
 def test_a_grid_without_a_projection_names_none(command, tmp_path):

@@ -68,7 +68,7 @@ BakeOutcome bake_file(const BakeCommand& command, const BakeInput& input, const 
                         .rmse = light.rmse};
     };
   }
-  options.surface = surface_of(command, loaded.facts.sha256);
+  options.surface = surface_of(command, options, loaded.facts.sha256);
   options.request = request_of(command, options, loaded.facts.sha256, albedo.sha256);
   const BakeTarget target{
       .source = input.path, .inputs = guard, .folder = command.folder, .name = input.name};

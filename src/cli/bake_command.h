@@ -36,13 +36,13 @@ void parse_bake_options(BakeCommand& command);
 /// The options of one map's files, whose format may hang on what that map is.
 BakeOptions options_for(const BakeCommand& command, const std::filesystem::path& map);
 
-/// All that a map's files depend on, as one text: with the checksums of the heightmap and of the albedo,
-/// where that is a file, as they were read. `options` are those of the map.
+/// All that a map's files depend on, as one text: with the text of its .prj, and the checksums of the
+/// heightmap and of the albedo, where that is a file, as they were read. `options` are those of the map.
 std::string request_of(const BakeCommand& command, const BakeOptions& options, const std::string& map_sha256,
                        const std::string& albedo_sha256);
 
 /// Of that, what the heights depend on.
-std::string surface_of(const BakeCommand& command, const std::string& map_sha256);
+std::string surface_of(const BakeCommand& command, const BakeOptions& options, const std::string& map_sha256);
 
 /// Whether the files are there as they were written, of this heightmap, and as is asked for now. Throws Error
 /// for an input that cannot be read.

@@ -128,7 +128,7 @@ BakeOptions options_for(const BakeCommand& command, const std::filesystem::path&
   options.format = command.format.empty() && terrain ? TextureFormat::tif : parse_format(command.format);
   options.depth = parse_depth(command.depth, options.format, terrain);
   if (has_own_light(command.light)) options.light_channels = count_light_channels(command.light);
-  if (options.format == TextureFormat::asc) options.projection = read_projection_text(map);
+  options.projection = read_projection_text(map);
   return options;
 }
 

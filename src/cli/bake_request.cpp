@@ -36,13 +36,17 @@ std::string request_of(const BakeCommand& command, const BakeOptions& options, c
   if (options.below == BelowHorizontal::ground) request["below_horizontal"] = "ground";
   if (options.azimuth_convention)
     request["azimuth_convention"] = static_cast<int>(*options.azimuth_convention);
+  if (!options.projection.empty()) request["projection"] = options.projection;
   if (const std::string light = light_key(command.light); !light.empty()) request["light"] = light;
   return request_key(request);
 }
 
-std::string surface_of(const BakeCommand& command, const std::string& map_sha256) {
-  return request_key(
-      {{"version", HEIGHTLIGHT_VERSION}, {"map", map_sha256}, {"load", describe_load_options(command.load)}});
+std::string surface_of(const BakeCommand& command, const BakeOptions& options,
+                       const std::string& map_sha256) {
+  nlohmann::ordered_json surface = {
+      {"version", HEIGHTLIGHT_VERSION}, {"map", map_sha256}, {"load", describe_load_options(command.load)}};
+  if (!options.projection.empty()) surface["projection"] = options.projection;
+  return request_key(surface);
 }
 
 bool is_baked(const BakeCommand& command, const BakeInput& input) {

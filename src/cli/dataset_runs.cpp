@@ -10,6 +10,7 @@
 #include "files/file_record.h"
 #include "files/image_file.h"
 #include "files/json_file.h"
+#include "files/projection_text.h"
 #include "files/saved_run.h"
 #include "heightlight/version.h"
 
@@ -40,6 +41,8 @@ Json describe_map(const ManifestMap& map, const Checksum& checksum, const LoadOp
   Json content = checksum.sha256;
   if (map.is_shape()) content = {map.source, map.size, map.seed};
   Json json = {{"name", map.name}, {"file", map.file.filename().string()}, {"content", content}};
+  if (const std::string projection = read_projection_text(map.file); !map.is_shape() && !projection.empty())
+    json["projection"] = projection;
   json.update(describe_load_options(load));
   return json;
 }

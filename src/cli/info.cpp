@@ -41,19 +41,28 @@ void report_place(const Georeference& place) {
   if (place.height_metres) fmt::print("heights in units of {:.9g} m\n", *place.height_metres);
 }
 
-/// Whether it is terrain or a material, and why.
-void report_kind(const LoadedHeightmap& loaded) {
-  if (!loaded.place) {
+/// Whether it is terrain or a material, and why: what `bake` takes it for.
+void report_kind(const LoadedHeightmap& loaded, const LoadOptions& options) {
+  if (options.boundary == Boundary::tile) {
+    fmt::print("kind       material: it is to tile\n");
+  } else if (!loaded.place && options.texel && options.boundary == Boundary::open) {
+    fmt::print("kind       terrain: a distance between samples is given, and open edges\n");
+  } else if (!loaded.place) {
     fmt::print("kind       material: its file tells no distance between samples\n");
-    return;
   }
+  if (!loaded.place) return;
   const Georeference& place = *loaded.place;
   const std::string unit = place.in_degrees       ? " degrees"
                            : !place.metres        ? ", in a unit that it does not tell: that of its heights"
                            : *place.metres == 1.0 ? " m"
                                                   : fmt::format(" units of {:.9g} m", *place.metres);
-  fmt::print("kind       terrain: its file tells the distance between samples, {:.9g} x {:.9g}{}\n",
-             place.cell.x, place.cell.y, unit);
+  const std::string distance = fmt::format("its file tells the distance between samples, {:.9g} x {:.9g}{}",
+                                           place.cell.x, place.cell.y, unit);
+  if (options.boundary == Boundary::tile) {
+    fmt::print("           {}\n", distance);
+  } else {
+    fmt::print("kind       terrain: {}\n", distance);
+  }
   report_place(place);
 }
 
@@ -86,7 +95,7 @@ void run_info(MapOptions& map_options, RunOptions& run_options) {
   const LoadedHeightmap loaded = load_heightmap(map_options.path, map_options.load, run_options.memory);
   if (run_options.quiet) return;
   report_file(map_options.path, loaded.facts);
-  report_kind(loaded);
+  report_kind(loaded, map_options.load);
   report_map(loaded.map, measure_edge_steps(loaded.map.height));
   for (const Warning& warning : loaded.warnings)
     fmt::print("warning    {}\n", printable(user_message(warning)));

@@ -144,6 +144,7 @@ std::size_t count_light_channels(const LightOptions& options) {
 std::string light_key(const LightOptions& options) {
   if (!has_own_light(options)) return "";
   std::string key = "sun " + options.sun + " sky " + (is_named_sky(options.sky) ? options.sky : "");
+  if (!options.direct.empty()) key += " direct";
   for (const std::filesystem::path& path : light_files(options)) key += ' ' + sha256_of_file(path);
   return key;
 }

@@ -5,8 +5,8 @@
 #include <cassert>
 #include <cmath>
 
-#include "files/geo_keys.h"
 #include "files/interrupt.h"
+#include "files/missing_mark.h"
 #include "files/output_file.h"
 
 namespace heightlight {
@@ -31,17 +31,16 @@ void write_header(std::FILE* stream, const TextureLayout& layout, const Spacing&
 void write_esri_grid(const std::filesystem::path& path, const TextureLayout& layout, const Spacing& spacing,
                      const FillRows& fill) {
   assert(layout.channels.size() == 1);
-  const GeoTag* tag = layout.place ? find_tag(layout.place->tags, kGdalNoDataTag) : nullptr;
-  const std::string no_data = tag ? text_of(*tag) : "-9999";
+  const MissingMark mark = missing_mark_of(layout).value_or(MissingMark{-9999, "-9999"});
   write_file(path, [&](std::FILE* stream) {
-    write_header(stream, layout, layout.place ? layout.place->cell : spacing, no_data);
+    write_header(stream, layout, layout.place ? layout.place->cell : spacing, mark.text);
     std::vector<float> row(static_cast<std::size_t>(layout.width));
     for (int i = 0; i < layout.height; ++i) {
       throw_if_interrupted();
       fill(i, 1, row.data());
       std::string line;
       for (const float value : row) {
-        line += std::isnan(value) ? no_data : fmt::format("{}", value);
+        line += std::isnan(value) ? mark.text : fmt::format("{}", mark_missing(mark, value));
         line += ' ';
       }
       line.back() = '\n';

@@ -36,10 +36,12 @@ constexpr std::uint16_t kModelType = 1024;
 constexpr std::uint16_t kRasterType = 1025;
 constexpr std::uint16_t kGeodeticSystem = 2048;
 constexpr std::uint16_t kAngularUnit = 2054;
+constexpr std::uint16_t kSemiMajorAxis = 2057;
 constexpr std::uint16_t kProjectedSystem = 3072;
 constexpr std::uint16_t kProjectedCitation = 3073;
 constexpr std::uint16_t kLinearUnit = 3076;
 constexpr std::uint16_t kLinearUnitSize = 3077;
+constexpr std::uint16_t kVerticalSystem = 4096;
 constexpr std::uint16_t kVerticalUnit = 4099;
 constexpr std::uint16_t kProjected = 1;
 constexpr std::uint16_t kGeographic = 2;
@@ -113,8 +115,29 @@ bool has_metres(std::uint16_t code) {
          std::find(kSystems.begin(), kSystems.end(), code) != kSystems.end();
 }
 
+/// The unit of the vertical systems that are in feet: NGVD 29, NAVD 88, and those of the Cayman Islands.
+std::optional<double> metres_of_vertical(std::uint16_t code) {
+  switch (code) {
+    case 5702:
+    case 6360:
+      return 1200.0 / 3937;
+    case 8228:
+    case 6130:
+    case 6131:
+    case 6132:
+      return 0.3048;
+    default:
+      return std::nullopt;
+  }
+}
+
 std::string epsg(const std::optional<std::uint16_t>& code) {
   return code && *code != kUserDefined ? "EPSG:" + std::to_string(*code) : "";
+}
+
+/// A unit's code in words: one that the file defines itself has none.
+std::string name_unit(std::uint16_t code) {
+  return code == kUserDefined ? "one of the file's own" : epsg(code);
 }
 
 void read_projected(const KeyValues& values, GeoKeys& keys, std::string& fault) {
@@ -123,7 +146,7 @@ void read_projected(const KeyValues& values, GeoKeys& keys, std::string& fault) 
   keys.system = epsg(system);
   if (unit && *unit != kUserDefined) {
     keys.metres = metres_of_unit(*unit);
-    if (!keys.metres) fault = "its unit of length, " + epsg(unit) + ", is not known";
+    if (!keys.metres) fault = "its unit of length, " + name_unit(*unit) + ", is not known";
   } else if (const auto size = values.doubles.find(kLinearUnitSize); size != values.doubles.end()) {
     keys.metres = size->second;
     if (!(*keys.metres > 0) || !std::isfinite(*keys.metres)) fault = "its unit of length is no length";
@@ -140,7 +163,9 @@ void read_geographic(const KeyValues& values, GeoKeys& keys, std::string& fault)
   keys.in_degrees = true;
   keys.system = epsg(values.find(kGeodeticSystem));
   if (unit != kDegree && unit != kSupplierDegree)
-    fault = "its angles are in a unit that is not known, " + epsg(unit);
+    fault = "its angles are in a unit that is not known, " + name_unit(unit);
+  if (const auto axis = values.doubles.find(kSemiMajorAxis); axis != values.doubles.end())
+    keys.equator_radius = axis->second;
 }
 
 /// A system that is told by its text, as Esri's programs and GDAL read it.
@@ -153,6 +178,8 @@ void read_citation(std::string text, GeoKeys& keys, std::string& fault) {
   note_projection(text.substr(kCitationBegin.size(), text.find('|') - kCitationBegin.size()), told);
   keys.in_degrees = told.in_degrees;
   keys.metres = told.metres;
+  keys.equator_radius = told.equator_radius;
+  if (!keys.height_metres) keys.height_metres = told.height_metres;
   keys.system = told.system;
   keys.projection = told.projection;
   if (!keys.in_degrees && !keys.metres) fault = "it does not tell its unit of length";
@@ -160,11 +187,7 @@ void read_citation(std::string text, GeoKeys& keys, std::string& fault) {
 
 /// GDAL's own text on bands, where it says the unit of heights.
 std::optional<double> unit_in_metadata(const std::string& text) {
-  const std::string begin = "role=\"unittype\">";
-  const std::size_t at = text.find(begin);
-  if (at == std::string::npos) return std::nullopt;
-  std::string unit = text.substr(at + begin.size());
-  unit = unit.substr(0, unit.find('<'));
+  const std::string unit = metadata_in_role(text, "unittype");
   if (unit == "m" || unit == "metre" || unit == "meter" || unit == "metres" || unit == "meters") return 1;
   if (unit == "ft" || unit == "foot" || unit == "feet") return 0.3048;
   if (unit == "us-ft" || unit == "US survey foot") return 1200.0 / 3937;
@@ -206,6 +229,14 @@ std::string text_of(const GeoTag& tag) {
   return tag.type == kText ? tag.bytes.substr(0, tag.bytes.find('\0')) : "";
 }
 
+std::string metadata_in_role(const std::string& metadata, const std::string& role) {
+  const std::string begin = "role=\"" + role + "\">";
+  const std::size_t at = metadata.find(begin);
+  if (at == std::string::npos) return "";
+  const std::string rest = metadata.substr(at + begin.size());
+  return rest.substr(0, rest.find('<'));
+}
+
 const GeoTag* find_tag(const std::vector<GeoTag>& tags, std::uint16_t number) {
   const auto found =
       std::find_if(tags.begin(), tags.end(), [number](const GeoTag& tag) { return tag.number == number; });
@@ -241,7 +272,9 @@ GeoKeys read_geo_keys(const std::vector<GeoTag>& tags, std::string& fault) {
   }
   if (const auto unit = values->find(kVerticalUnit)) {
     keys.height_metres = metres_of_unit(*unit);
-    if (!keys.height_metres) fault = "its unit of heights, " + epsg(unit) + ", is not known";
+    if (!keys.height_metres) fault = "its unit of heights, " + name_unit(*unit) + ", is not known";
+  } else if (const auto system = values->find(kVerticalSystem); system && !keys.height_metres) {
+    keys.height_metres = metres_of_vertical(*system);
   }
   return keys;
 }
@@ -252,10 +285,13 @@ std::vector<GeoTag> make_geo_tags(const Georeference& place) {
       make_tag(kPixelScaleTag, std::vector<double>{place.cell.x, place.cell.y, 0}),
       make_tag(kTiePointTag, std::vector<double>{0, 0, 0, (*place.corner)[0], (*place.corner)[1], 0})};
   std::vector<GeoTag> keys;
-  const bool has_code = place.system.starts_with("EPSG:") && (place.in_degrees || place.metres == 1.0);
+  // Keys have 16 bits; codes of six digits stay in the text.
+  std::uint16_t code = 0;
+  const bool has_code =
+      place.system.starts_with("EPSG:") && (place.in_degrees || place.metres == 1.0) &&
+      std::from_chars(place.system.data() + 5, place.system.data() + place.system.size(), code).ec ==
+          std::errc();
   if (has_code) {
-    std::uint16_t code = 0;
-    std::from_chars(place.system.data() + 5, place.system.data() + place.system.size(), code);
     const auto model = place.in_degrees ? kGeographic : kProjected;
     const auto system = place.in_degrees ? kGeodeticSystem : kProjectedSystem;
     const auto unit = place.in_degrees ? kAngularUnit : kLinearUnit;

@@ -29,6 +29,10 @@ std::vector<double> doubles_of(const GeoTag& tag);
 std::vector<std::uint16_t> shorts_of(const GeoTag& tag);
 std::string text_of(const GeoTag& tag);  ///< up to its first 0
 
+/// What GDAL's metadata, a text of XML, say of a band in that role ("unittype", "scale", "offset"): the first
+/// that has it; empty where none has.
+std::string metadata_in_role(const std::string& metadata, const std::string& role);
+
 /// The tag of that number; nullptr where there is none.
 const GeoTag* find_tag(const std::vector<GeoTag>& tags, std::uint16_t number);
 
@@ -39,8 +43,9 @@ struct GeoKeys {
   bool in_degrees = false;       ///< geographic coordinates
   std::optional<double> metres;  ///< length of the unit of projected ones
   std::optional<double> height_metres;
-  std::string system;      ///< "EPSG:32631"
-  std::string projection;  ///< well-known text, where the system is told by one
+  std::optional<double> equator_radius;  ///< of the ellipsoid of degrees, metres
+  std::string system;                    ///< "EPSG:32631"
+  std::string projection;                ///< well-known text, where the system is told by one
 };
 
 /// Reads them. `fault` becomes what is wrong with them, in words that go on after the file's name, and stays

@@ -103,6 +103,7 @@ GeotiffPlace read_geotiff_place(const std::vector<GeoTag>& tags, int rows) {
                      .in_degrees = keys.in_degrees,
                      .metres = keys.metres,
                      .height_metres = keys.height_metres,
+                     .equator_radius = keys.equator_radius,
                      .system = keys.system,
                      .projection = keys.projection,
                      .tags = tags};

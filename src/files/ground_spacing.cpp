@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "files/degrees.h"
@@ -11,13 +12,26 @@ namespace {
 
 Spacing scaled(const Spacing& spacing, double factor) { return {spacing.x * factor, spacing.y * factor}; }
 
+/// Metres of a cell, none beyond the poles, where cells end whose samples stand on them.
+Spacing cell_at(const Spacing& cell, double latitude) {
+  constexpr double kPole = 90;
+  Spacing metres = degrees_in_metres(cell, std::clamp(latitude, -kPole, kPole));
+  if (std::fabs(latitude) >= kPole) metres.x = 0;
+  return metres;
+}
+
+/// Whether an ellipsoid may be the Earth's: all have its radius within 2 km, and spheres of its mean
+/// within 8.
+bool is_earth(double equator_radius) { return std::fabs(equator_radius - 6378137) < 1e4; }
+
 /// What is lost by one spacing for all rows, where that shows.
 std::string describe_change(const Spacing& cell, double north, double south) {
   constexpr double kShows = 0.01;
-  const double upper = degrees_in_metres(cell, north).x;
-  const double lower = degrees_in_metres(cell, south).x;
+  const double upper = cell_at(cell, north).x;
+  const double lower = cell_at(cell, south).x;
   if (std::fabs(upper - lower) < kShows * (upper + lower) / 2) return "";
-  return fmt::format("; from north to south they widen from {:.4g} to {:.4g} m", upper, lower);
+  return fmt::format("; from north to south they {} from {:.4g} to {:.4g} m",
+                     upper < lower ? "widen" : "narrow", upper, lower);
 }
 
 Spacing measure_degrees(const Georeference& place, int rows, std::vector<Warning>& warnings) {
@@ -40,6 +54,12 @@ Spacing spacing_on_ground(const InputFile& file, const Georeference& place, int 
   if (place.in_degrees) {
     if (!place.corner)
       throw file.error("has cells in degrees, and does not tell where; give the spacing in metres", "texel");
+    if (place.equator_radius && !is_earth(*place.equator_radius))
+      throw file.error(
+          fmt::format("has cells in degrees of a body that is not the Earth (its radius is {:g} m); "
+                      "give the spacing in metres",
+                      *place.equator_radius),
+          "texel");
     return scaled(measure_degrees(place, rows, warnings), 1 / height_unit);
   }
   if (!place.metres) return place.cell;

@@ -10,6 +10,7 @@
 #include "files/geotiff_place.h"
 #include "files/ground_spacing.h"
 #include "files/image_file.h"
+#include "files/no_data.h"
 #include "files/stored_heights.h"
 #include "files/suspects.h"
 #include "heightlight/files.h"
@@ -36,10 +37,19 @@ void judge_place(StoredHeights& stored) {
       looks_like_degrees(*stored.place, stored.values.width, stored.values.height, span);
 }
 
-/// What is made of the map has the no-data value that its file has, or the one that it was read with.
+/// What is made of the map has the no-data value that its file has, or the one that it was read with: in
+/// single precision, which results are in. A tag that is no number goes; programs would take it for 0.
 void note_no_data(const std::optional<double>& no_data, Georeference& place) {
-  if (no_data && !find_tag(place.tags, kGdalNoDataTag))
-    place.tags.push_back(make_tag(kGdalNoDataTag, fmt::format("{:.17g}", *no_data)));
+  const GeoTag* tag = find_tag(place.tags, kGdalNoDataTag);
+  const std::optional<double> told = tag ? parse_no_data(text_of(*tag)) : std::nullopt;
+  const std::optional<double> value = told ? told : no_data;
+  constexpr double kLargest = std::numeric_limits<float>::max();
+  const bool is_beyond = value && std::isfinite(*value) && std::fabs(*value) > kLargest;
+  if (told && !is_beyond) return;
+  std::erase_if(place.tags, [](const GeoTag& other) { return other.number == kGdalNoDataTag; });
+  if (!value) return;
+  place.tags.push_back(
+      make_tag(kGdalNoDataTag, fmt::format("{:.17g}", is_beyond ? std::copysign(kLargest, *value) : *value)));
 }
 
 /// A place that cannot be used is no obstacle where the spacing is given; it is left out then.
@@ -124,12 +134,13 @@ LoadedHeightmap load_heightmap(const std::filesystem::path& path, const LoadOpti
   if (!relief && stored.facts.is_stretched) relief = width / 10;
   const bool invert = options.invert != stored.facts.white_is_zero;
   const double span = stored.facts.highest - stored.facts.lowest;
-  const double scale = relief && span > 0 ? *relief / span : options.scale.value_or(1);
+  const double scale = relief && span > 0 ? *relief / span : options.scale.value_or(stored.scale);
   map.height = to_heights(file, stored, scale, invert);
   loaded.warnings = find_suspects(stored);
   check_slopes(file, map, loaded.warnings);
   if (!relief)
-    map.base = (invert ? -stored.facts.highest : stored.facts.lowest) * scale + options.offset.value_or(0);
+    map.base = (invert ? -stored.facts.highest : stored.facts.lowest) * scale +
+               options.offset.value_or(stored.offset);
   if (options.shrink != 1) map = shrink(map, options.shrink);
   if (stored.place) {
     loaded.place = shrink_place(*stored.place, options.shrink);

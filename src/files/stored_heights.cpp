@@ -1,5 +1,7 @@
 #include "files/stored_heights.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -87,6 +89,27 @@ void take_no_data_tag(StoredHeights& stored) {
                              "', which is no number; no sample was taken for missing by it"});
 }
 
+/// GDAL's metadata may say what height a stored value is; its mask, what is missing.
+void take_metadata(const InputFile& file, const LoadOptions& options, StoredHeights& stored) {
+  const TiffFacts& tiff = *stored.tiff;
+  if (tiff.has_mask)
+    stored.warnings.push_back(
+        {"it has a mask of missing samples, which is not read; give their value", "no_data"});
+  const double scale = tiff.scale.value_or(1);
+  const double offset = tiff.offset.value_or(0);
+  if (options.scale || options.offset || (scale == 1 && offset == 0)) return;
+  if (!(scale > 0) || !std::isfinite(scale) || !std::isfinite(offset))
+    throw file.error(
+        fmt::format("says that heights are {:g} times its samples, plus {:g}; give a positive scale", scale,
+                    offset),
+        "scale");
+  stored.scale = scale;
+  stored.offset = offset;
+  stored.facts.is_stretched = false;
+  stored.warnings.push_back(
+      {fmt::format("heights are {:g} times its samples, plus {:g}, as it says", scale, offset)});
+}
+
 StoredHeights read_picture(const InputFile& file, FileFormat format, const LoadOptions& options,
                            std::uint64_t memory_limit) {
   const StoredImage image = read_image(file, format, memory_limit, options.part);
@@ -107,6 +130,7 @@ StoredHeights read_picture(const InputFile& file, FileFormat format, const LoadO
   stored.place = image.tiff->place.place;
   stored.place_fault = image.tiff->place.fault;
   take_no_data_tag(stored);
+  take_metadata(file, options, stored);
   stored.facts.white_is_zero = image.is_integer && image.tiff->white_is_zero;
   return stored;
 }

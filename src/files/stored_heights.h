@@ -13,6 +13,8 @@ namespace heightlight {
 struct StoredHeights {
   Image<double> values;  ///< NaN where missing
   SourceFacts facts;
+  double scale = 1;                   ///< height per stored value, as the file says it
+  double offset = 0;                  ///< height of a stored 0
   std::optional<Georeference> place;  ///< where it lies on earth, as far as the file says it
   std::string place_fault;            ///< why what it says of that cannot be used; empty: it can
   std::optional<TiffFacts> tiff;      ///< of a TIFF

@@ -13,6 +13,7 @@
 
 #include "files/geo_keys.h"
 #include "files/interrupt.h"
+#include "files/no_data.h"
 
 namespace heightlight {
 namespace {
@@ -70,6 +71,17 @@ std::optional<GeoTag> read_tag(TIFF* tiff, std::uint16_t number) {
   if (type == TIFF_ASCII || type == TIFF_SHORT || type == TIFF_DOUBLE)
     tag.bytes.assign(values, count * bytes_of_type(type));
   return tag;
+}
+
+/// Whether one of the directories that follow the first is a mask; overviews stand among them.
+bool has_mask(TIFF* tiff) {
+  constexpr int kMost = 64;
+  for (int i = 0; i < kMost && TIFFReadDirectory(tiff) != 0; ++i) {
+    std::uint32_t type = 0;
+    TIFFGetFieldDefaulted(tiff, TIFFTAG_SUBFILETYPE, &type);
+    if ((type & FILETYPE_MASK) != 0) return true;
+  }
+  return false;
 }
 
 /// A zlib stream, inflated as its pieces come and dropped.
@@ -138,9 +150,14 @@ TiffFacts read_tiff_facts(const InputFile& file) {
   }
   if (const GeoTag* no_data = find_tag(tags, kGdalNoDataTag); no_data && no_data->type == TIFF_ASCII)
     facts.no_data = text_of(*no_data);
+  if (const GeoTag* metadata = find_tag(tags, kGdalMetadataTag)) {
+    facts.scale = parse_no_data(metadata_in_role(text_of(*metadata), "scale"));
+    facts.offset = parse_no_data(metadata_in_role(text_of(*metadata), "offset"));
+  }
   std::uint32_t rows = 0;
   TIFFGetField(tiff.get(), TIFFTAG_IMAGELENGTH, &rows);
   facts.place = read_geotiff_place(tags, static_cast<int>(rows));
+  facts.has_mask = has_mask(tiff.get());
   return facts;
 }
 

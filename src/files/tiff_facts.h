@@ -13,6 +13,9 @@ struct TiffFacts {
   bool white_is_zero = false;          ///< larger numbers are darker (PhotometricInterpretation 0)
   bool is_cmyk_in_tiles = false;       ///< which ends the process within OpenImageIO 2.4
   std::optional<std::string> no_data;  ///< GDAL's tag 42113, as text
+  std::optional<double> scale;         ///< height per stored value, where GDAL's metadata tell it
+  std::optional<double> offset;        ///< height of a stored 0, likewise
+  bool has_mask = false;               ///< a directory of it is a mask of what is missing, which is not read
   GeotiffPlace place;                  ///< where it lies on earth
 };
 

@@ -9,9 +9,8 @@
 #include <cstring>
 #include <memory>
 
-#include "files/geo_keys.h"
 #include "files/interrupt.h"
-#include "files/no_data.h"
+#include "files/missing_mark.h"
 #include "files/output_file.h"
 #include "files/tiff_tags.h"
 
@@ -161,30 +160,12 @@ class ReducedRows {
   std::vector<float> full_;
 };
 
-/// The value that stands for NaN in files of floats; nothing where there is none.
-std::optional<float> no_data_of(const TextureLayout& layout) {
-  const GeoTag* tag = layout.place ? find_tag(layout.place->tags, kGdalNoDataTag) : nullptr;
-  if (!tag || layout.type != SampleType::real) return std::nullopt;
-  const std::optional<double> value = parse_no_data(text_of(*tag));
-  return value && std::isfinite(*value) ? std::optional(static_cast<float>(*value)) : std::nullopt;
-}
-
-/// What is missing gets the no-data value; what has it by chance, the next above.
-void mark_missing(float no_data, std::vector<float>& samples) {
-  for (float& sample : samples) {
-    if (std::isnan(sample)) {
-      sample = no_data;
-    } else if (sample == no_data) {
-      sample = std::nextafter(no_data, HUGE_VALF);
-    }
-  }
-}
-
 /// One image of the file, tile by tile; beyond the map, tiles hold zeros. False where libtiff fails.
 bool write_tiles(TIFF* tiff, const TextureLayout& layout, ReducedRows& rows) {
   const std::size_t channels = layout.channels.size();
   const auto width = static_cast<std::size_t>(rows.width());
-  const std::optional<float> no_data = no_data_of(layout);
+  const std::optional<MissingMark> mark =
+      layout.type == SampleType::real ? missing_mark_of(layout) : std::nullopt;
   const std::size_t pixel = channels * bytes_of_sample(layout.type);
   std::vector<float> band;
   std::vector<unsigned char> tile(kTile * kTile * pixel);
@@ -193,7 +174,9 @@ bool write_tiles(TIFF* tiff, const TextureLayout& layout, ReducedRows& rows) {
     const int count = std::min(kTile, rows.height() - top);
     band.resize(static_cast<std::size_t>(count) * width * channels);
     rows.fill(top, count, band.data());
-    if (no_data) mark_missing(*no_data, band);
+    for (float& sample : band) {
+      if (mark) sample = mark_missing(*mark, sample);
+    }
     for (std::size_t left = 0; left < width; left += kTile) {
       const std::size_t columns = std::min<std::size_t>(kTile, width - left);
       std::fill(tile.begin(), tile.end(), static_cast<unsigned char>(0));

@@ -1,4 +1,6 @@
 #include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -26,6 +28,39 @@ TEST_CASE("a bake is made anew where what lies below the horizontal, azimuths or
   }
   const nlohmann::json sidecar = nlohmann::json::parse(read_text(folder / "out" / "hill_bake.json"));
   CHECK(sidecar["map"]["lowered_by"]["times_squared_distance"] == Approx(0.5 / 6371008.8).epsilon(1e-12));
+}
+
+TEST_CASE("a bake is made anew where the projection beside its grid changes", "[cli][bake][terrain]") {
+  const ScratchFolder folder;
+  const auto write = [&](const char* name, const std::string& text) { std::ofstream(folder / name) << text; };
+  write("hill.asc", "ncols 3\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 10\n1 2 3\n4 6 5\n");
+  const std::string projection = "Projection UTM\nZone 31\nUnits METERS\n";
+  for (const char* format : {"tif", "asc"}) {
+    std::filesystem::remove(folder / "hill.prj");
+    const std::string bake = std::string("bake hill.asc -o out --maps ao --skip-existing --format ") + format;
+    REQUIRE(run_command(bake, folder).exit_code == 0);
+    write("hill.prj", projection);
+    CHECK(run_command(bake, folder).out.find("1 baked, 0 skipped") != std::string::npos);
+    CHECK(run_command(bake, folder).out.find("0 baked, 1 skipped") != std::string::npos);
+  }
+  CHECK(read_text(folder / "out" / "hill_ao.prj") == projection);
+}
+
+TEST_CASE("info says what bake takes a map for", "[cli][terrain]") {
+  const ScratchFolder folder;
+  std::ofstream(folder / "hill.asc")
+      << "ncols 3\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 10\n1 2 3\n4 6 5\n";
+  REQUIRE(run_command("synth fbm -o hill.exr --size 16", folder).exit_code == 0);
+  const auto [map, kind] = GENERATE(
+      table<std::string, std::string>({{"hill.asc", "terrain: its file tells"},
+                                       {"hill.asc --boundary tile", "material: it is to tile"},
+                                       {"hill.exr", "material: its file tells no"},
+                                       {"hill.exr --texel 5 --boundary open", "terrain: a distance"}}));
+  INFO(map);
+  CHECK(run_command("info " + map, folder).out.find("kind       " + kind) != std::string::npos);
+  REQUIRE(run_command("bake " + map + " -o out --maps ao", folder).exit_code == 0);
+  CHECK(std::filesystem::exists(folder / "out" /
+                                (kind.starts_with("terrain") ? "hill_ao.tif" : "hill_ao.png")));
 }
 
 TEST_CASE("terrain options that make no sense are refused in a line", "[cli][terrain]") {

@@ -110,3 +110,76 @@ TEST_CASE("texts of projections tell degrees, lengths and codes", "[files]") {
   CHECK(note("Projection GEOGRAPHIC Units DD").in_degrees);
   CHECK_FALSE(note("nothing that is known").metres);
 }
+
+TEST_CASE("keywords are words of their own, in any order", "[files]") {
+  Georeference degrees;
+  note_projection("Projection GEOGRAPHIC\nDatum WGS84\nZunits METERS\nUnits DD\nParameters\n", degrees);
+  CHECK(degrees.in_degrees);
+  CHECK_FALSE(degrees.metres);
+  CHECK(degrees.height_metres == 1.0);
+  CHECK(degrees.system == "EPSG:4326");
+  CHECK(degrees.projection == "Projection GEOGRAPHIC Datum WGS84 Zunits METERS Units DD Parameters");
+  Georeference zone;
+  note_projection("Projection UTM\r\nZone 31\r\nDatum WGS84\r\nZunits NO\r\nUnits METERS\r\n", zone);
+  CHECK(zone.metres == 1.0);
+  CHECK_FALSE(zone.height_metres);
+  CHECK(zone.system == "EPSG:32631");
+  Georeference south;
+  note_projection("Projection UTM Zone 31 Datum WGS84 Units METERS Yshift 10000000.0", south);
+  CHECK(south.system.empty());
+}
+
+TEST_CASE("compound and bound systems are read for their horizontal part, and for the heights' unit",
+          "[files]") {
+  const std::string utm =
+      "PROJCS[\"utm\",GEOGCS[\"wgs\",UNIT[\"degree\",0.0174]],UNIT[\"metre\",1],AUTHORITY[\"EPSG\",\"32631\"]"
+      "]";
+  const std::string feet =
+      "VERT_CS[\"height\",VERT_DATUM[\"d\",2005],UNIT[\"foot\",0.3048],AUTHORITY[\"EPSG\",\"8228\"]]";
+  for (const std::string& text : {"COMPD_CS[\"a [odd name\"," + utm + "," + feet + "]", utm + "," + feet}) {
+    INFO(text);
+    Georeference place;
+    note_projection(text, place);
+    CHECK(place.metres == 1.0);
+    CHECK(place.height_metres == 0.3048);
+    CHECK(place.system == "EPSG:32631");
+  }
+  Georeference bound;
+  note_projection(
+      "BOUNDCRS[SOURCECRS[PROJCRS[\"utm\",BASEGEOGCRS[\"wgs\"],LENGTHUNIT[\"metre\",1],ID[\"EPSG\",32631]]],"
+      "TARGETCRS[GEOGCRS[\"other\",ID[\"EPSG\",4326]]]]",
+      bound);
+  CHECK_FALSE(bound.in_degrees);
+  CHECK(bound.system == "EPSG:32631");
+  Georeference moon;
+  note_projection("GEOGCS[\"moon\",DATUM[\"moon\",SPHEROID[\"moon\",1737400.0,0.0]],UNIT[\"Degree\",0.0174]]",
+                  moon);
+  CHECK(moon.equator_radius == 1737400.0);
+}
+
+TEST_CASE("codes that keys do not hold stay in the text", "[files]") {
+  Georeference place{.corner = {{0, 0}},
+                     .cell = {1, 1},
+                     .metres = 1,
+                     .system = "EPSG:102100",
+                     .projection = "PROJCS[\"x\"]"};
+  const std::vector<GeoTag> tags = make_geo_tags(place);
+  REQUIRE(find_tag(tags, kTextParametersTag));
+  CHECK(text_of(*find_tag(tags, kTextParametersTag)) == "ESRI PE String = PROJCS[\"x\"]|");
+}
+
+TEST_CASE("vertical systems in feet tell the heights' unit", "[files]") {
+  for (const auto& [code, metres] : {std::pair{6360, 1200.0 / 3937}, {8228, 0.3048}}) {
+    const GeoTag keys = make_tag(kKeyDirectoryTag, Shorts{1, 1, 0, 3, 1024, 0, 1, 1, 3072, 0, 1, 32631, 4096,
+                                                          0, 1, static_cast<std::uint16_t>(code)});
+    const GeotiffPlace read = read_geotiff_place({kScale, kTie, keys}, kGridRows);
+    REQUIRE(read.place);
+    CHECK(read.place->height_metres == metres);
+  }
+}
+
+TEST_CASE("units that a file defines itself are named in words", "[files]") {
+  const GeoTag keys = make_tag(kKeyDirectoryTag, Shorts{1, 1, 0, 2, 1024, 0, 1, 2, 2054, 0, 1, 32767});
+  CHECK_THAT(fault_of_place({make_tag(kPixelScaleTag, Doubles{0.1, 0.1, 0}), keys}),
+             Contains("of the file's own"));
+}

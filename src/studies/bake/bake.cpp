@@ -167,7 +167,7 @@ class StagedBake {
       write_baked(paths[at], textures[at], surface, encoding, place);
     });
     for (const std::string& file : files_) {
-      if (file.ends_with(".prj")) write_bytes(folder_.file(file), options_.projection + "\n");
+      if (file.ends_with(".prj")) write_bytes(folder_.file(file), options_.projection);
     }
   }
 
