@@ -87,7 +87,7 @@ def test_light_of_ones_own_and_albedo_maps_are_turned_too():
     albedo = np.linspace(0, 0.9, up.size).reshape(up.shape)
     sun = np.random.default_rng(1).random(up.shape)
     found = up.heightlight.irradiance(albedo, direct=sun)
-    op = hl.operator(up.values[::-1].astype(float), texel=10, boundary="open")
+    op = hl.operator(up.values[::-1].astype(float), texel=10, boundary="open", direct=sun[::-1])
     np.testing.assert_array_equal(found.values[::-1], op.solve(albedo[::-1], sun[::-1]))
 
 
