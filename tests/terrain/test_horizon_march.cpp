@@ -100,6 +100,14 @@ TEST_CASE("a march steps by the shorter side of a cell", "[terrain]") {
   CHECK(march_horizon(surface, {.azimuth_rad = pi / 2, .reach = 12})(4, 1) > 0.2);
 }
 
+/// A map of cells of 1 by 1.
+template <class Function>
+Surface unit_cells(int side, Function&& height_at) {
+  Heightmap map = make_map(side, side, Boundary::open, height_at);
+  map.spacing = {1, 1};
+  return build_surface(std::move(map));
+}
+
 /// What marches find at the middle of a map.
 double marched(const Surface& surface, const TerrainQuantity& quantity) {
   const Map map = march_quantities(surface, 64, {}, {quantity})[0].map;
@@ -110,9 +118,8 @@ TEST_CASE("marched quantities of a level receiver amid a round wall are what the
           "[terrain]") {
   // The wall stands from a distance of 10 on; its inner rim of cells hides all that is beyond.
   const double wall = 6;
-  const Surface surface = build_surface(make_map(41, 41, Boundary::open, [&](int row, int column) {
-    return std::hypot(row - 20, column - 20) > 9.5 ? wall : 0.0;
-  }));
+  const Surface surface = unit_cells(
+      41, [&](int row, int column) { return std::hypot(row - 20, column - 20) > 9.5 ? wall : 0.0; });
   const double h = std::atan(wall / 10);
   const double margin = 0.02;  // discretisation: the rim is not round
   CHECK(marched(surface, {SkyDefinition::svf_tilted, BelowHorizontal::sky}) ==
@@ -129,8 +136,7 @@ TEST_CASE("marched quantities of a level receiver amid a round wall are what the
 }
 
 TEST_CASE("of an open slope the tangent plane hides nothing, the horizontal its lower part", "[terrain]") {
-  const Surface slope = build_surface(
-      make_map(15, 15, Boundary::open, [](int row, int column) { return 0.5 * column + 0.2 * row; }));
+  const Surface slope = unit_cells(15, [](int row, int column) { return 0.5 * column + 0.2 * row; });
   const double cosine = double{slope.normal(7, 7).z};
   REQUIRE(cosine < 0.9);
   const TerrainQuantity below_sky{SkyDefinition::svf_tilted, BelowHorizontal::sky};
