@@ -83,6 +83,7 @@ Results solve_with_light(const Surface& surface, const Request& request, std::ve
   bounces.limits.memory -= std::min(bounces.limits.memory, found.transport->bytes());
   Request total = bounces;
   bounces.wanted.totals = {};
+  bounces.checks.sky = true;  // the total's check is of the sky that its own walks find
   total.wanted = {.totals = request.wanted.totals, .direct = std::move(direct)};
   total.sink = nullptr;
   if (request.accuracy.visibility == Visibility::horizon_walks) total.transport = nullptr;
@@ -94,7 +95,12 @@ Results solve_with_light(const Surface& surface, const Request& request, std::ve
   results.evidence.gathers = lit.evidence.gathers;
   if (lit.evidence.plan) results.evidence.plan->gather = lit.evidence.plan->gather;
   results.evidence.refined = lit.evidence.refined;
-  results.evidence.sky_rmse = lit.evidence.sky_rmse;
+  if (const std::optional<SkyCheck>& sky = results.evidence.sky_check) {
+    for (HorizonCheck& check : results.evidence.total_checks) {
+      check.sky_rmse = sky->sky_view_factor;
+      check.ambient_rmse = sky->ambient_occlusion;
+    }
+  }
   results.evidence.seconds.bounces += lit.evidence.seconds.bounces;
   results.evidence.seconds.check += lit.evidence.seconds.check;
   return results;

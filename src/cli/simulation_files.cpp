@@ -62,6 +62,7 @@ std::vector<std::string> simulation_file_names(int bounces) {
                                  "ambient_occlusion.png",
                                  "sky_view_factor.png",
                                  "irradiance_total.png",
+                                 "irradiance_direct.png",
                                  "bounces.png"};
   for (int b = 0; b <= bounces; ++b) {
     names.push_back(bounce_file(b));
@@ -80,6 +81,7 @@ void write_totals(const MapFolder& output, const std::vector<Map>& totals) {
 }
 
 void write_direct(const MapFolder& output, const std::vector<Map>& direct) {
+  write_png(output.folder.file("irradiance_direct.png"), colour_picture(direct));
   write_channels(output, "irradiance_direct", pointers_to(direct),
                  "E / pi of the first light, before any bounce");
 }

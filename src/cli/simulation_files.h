@@ -27,7 +27,7 @@ void write_map(const MapFolder& output, const std::string& name, const Map& map,
 /// `irradiance_total`: one map, Y, or three, R, G, B. Throws OutputError.
 void write_totals(const MapFolder& output, const std::vector<Map>& totals);
 
-/// `irradiance_direct`: likewise. Throws OutputError.
+/// `irradiance_direct`: likewise, and its preview. Throws OutputError.
 void write_direct(const MapFolder& output, const std::vector<Map>& direct);
 
 /// `obscurance` and `ambient_transfer`. Throws OutputError.

@@ -144,12 +144,15 @@ void send_panel(Gnuplot& script, const std::vector<ComparisonRow>& rows, const P
   script << plot << '\n';
 }
 
-std::string key_of(const Names& names) {
-  std::string key = std::string("keyentry with lines ") + kFrontStyle + " title 'Pareto front', keyentry " +
-                    kReferenceStyle + " title \"the reference's own error\", keyentry title ' '";
+std::string key_of(const Names& names, bool has_reference) {
+  std::string key = std::string("keyentry with lines ") + kFrontStyle + " title 'Pareto front'";
+  if (has_reference)
+    key += std::string(", keyentry ") + kReferenceStyle + " title \"the reference's own error\"";
+  key += ", keyentry title ' '";
   for (std::size_t m = 0; m < names.methods.size(); ++m)
     key += ", keyentry with points pt 5 ps 1.2 lc rgb '" + colour_of(m) + "' title " +
            gnuplot_quoted(names.methods[m]);
+  if (names.variants.size() <= 1) return key;
   key += ", keyentry title ' '";
   for (std::size_t v = 0; v < names.variants.size(); ++v)
     key += ", keyentry with points pt " + mark_of(v) + " ps 1 lc rgb '#444444' title " +
@@ -165,6 +168,8 @@ std::string draw(bool is_svg, const std::vector<ComparisonRow>& rows, const std:
                        .width = 720,
                        .height = 560,
                        .key = 290};
+  const bool has_reference = std::any_of(panels.begin(), panels.end(),
+                                         [](const ParetoPanel& panel) { return panel.reference_error > 0; });
   return run_gnuplot([&](Gnuplot& script) {
            script << "set terminal " << terminal_of(grid, is_svg) << '\n' << kParetoStyle;
            begin_grid(script, grid, title);
@@ -172,7 +177,7 @@ std::string draw(bool is_svg, const std::vector<ComparisonRow>& rows, const std:
              place_panel(script, grid, i);
              send_panel(script, rows, panels[i], names);
            }
-           draw_key(script, grid, key_of(names));
+           draw_key(script, grid, key_of(names, has_reference));
            script << "unset multiplot\n";
          })
       .output;
