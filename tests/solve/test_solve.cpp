@@ -229,6 +229,25 @@ TEST_CASE("what is received is absorbed or escapes", "[solve]") {
   CHECK(audits[0].absorbed > 0.7);
 }
 
+TEST_CASE("light of one's own is balanced, and no worse for it", "[solve]") {
+  const Surface surface = build_surface(make_map(64, 64, Boundary::open, [](int row, int column) {
+    return 0.05 * std::sin(0.3 * column) * std::cos(0.25 * row);
+  }));
+  TexelVector lit(surface.map.height.size());
+  for (std::size_t i = 0; i < lit.size(); ++i)
+    lit[i] = std::max(0.0F, surface.normal.values[i].x);  // a sun in the east, without its shadows
+  Request request = coarse_request();
+  request.wanted = {.totals = {{.constant = {0.9}}}, .direct = {lit}};
+  request.accuracy = {.error = 0.002};
+  const Results walked = solve(surface, request);
+  request.accuracy = {.visibility = Visibility::exact_slices, .azimuths = 128};
+  const Results exact = solve(surface, request);
+  for (const Results* found : {&walked, &exact})
+    CHECK(std::abs(found->evidence.audits.at(0).imbalance) < 1e-9);  // identity
+  const Eigen::VectorXd error = as_eigen(walked.totals[0][0]) - as_eigen(exact.totals[0][0]);
+  CHECK(error.norm() / std::sqrt(static_cast<double>(lit.size())) < 1.15 * 0.002);
+}
+
 TEST_CASE("bounces go to a sink, which need not keep them", "[solve]") {
   struct Counter : BounceSink {
     void take_sky(const Map& alpha, const Map& sky) override { texels = alpha.size() + sky.size(); }

@@ -33,6 +33,18 @@ std::vector<LightSystem> list_systems(const Task& task, bool seen) {
   return systems;
 }
 
+/// Of light of one's own. The sky's is left as it is: where all is 1 at ρ = 1, walks are scaled for that.
+Totals solve_balanced(const Task& task, const Transport& transport, const std::vector<LightSystem>& systems) {
+  constexpr double kShareOfError = 0.3;
+  Totals solved = transport.solve(systems, task.request.watch);
+  for (std::size_t i = 0; i < systems.size(); ++i) {
+    if (systems[i].direct)
+      balance_energy(task.surface, transport, systems[i], kShareOfError * task.request.accuracy.error,
+                     solved.irradiance[i]);
+  }
+  return solved;
+}
+
 /// By exact walks, all of them from the same receivers: of α and A too.
 std::vector<HorizonCheck> check_totals(const Task& task, const Transport& transport,
                                        const std::vector<LightSystem>& systems, const Totals& solved) {
@@ -64,7 +76,7 @@ void find_again(const Task& task, const std::vector<LightSystem>& systems,
   std::vector<LightSystem> again;
   for (const std::size_t i : which) again.push_back(systems[i]);
   const PlannedTransport finer = find_operator(task, share * task.request.accuracy.error, {});
-  Totals found = finer.transport->solve(again, task.request.watch);
+  Totals found = solve_balanced(task, *finer.transport, again);
   const std::vector<HorizonCheck> found_checks = check_totals(task, *finer.transport, again, found);
   for (std::size_t k = 0; k < which.size(); ++k) {
     checked.totals.irradiance[which[k]] = std::move(found.irradiance[k]);
@@ -135,7 +147,7 @@ TexelVector find_totals(const Task& task, const Transport& transport, Results& r
   const bool seen = wanted.seen || wanted.bounces > 0;
   const std::vector<LightSystem> systems = list_systems(task, seen);
   Stopwatch watch;
-  Totals solved = transport.solve(systems, request.watch);
+  Totals solved = solve_balanced(task, transport, systems);
   note_solver(solved.residual, solved.iterations, evidence);
   evidence.seconds.bounces += watch.lap();
   const bool checks =

@@ -15,7 +15,7 @@ struct Task {
   const Surface& surface;
   const Request& request;
   std::span<const TexelVector> direct = {};  ///< E₀/π of totals; empty: the sky's, as the operator has it
-  std::uint64_t free_memory = 0;        ///< bytes that the limit leaves for links, or for a refinement
+  std::uint64_t free_memory = 0;             ///< bytes that the limit leaves for links, or for a refinement
 };
 
 /// Throws UsageError naming the quantity that is out of its range or contradicts another.
@@ -77,6 +77,13 @@ TexelVector find_totals(const Task& task, const Transport& transport, Results& r
 /// Where the light of a total went, that is E/π of `system`.
 EnergyAudit audit_energy(const Surface& surface, const Transport& transport, const LightSystem& system,
                          const TexelVector& total);
+
+/// Makes all that is received be absorbed or escape, by one factor of what bounces bring. Gathers look from
+/// the receivers' side alone, and their errors leave a share of the order of 10⁻⁴ too much or too little over
+/// the whole map. Where that would change the total by more than `most_change` RMS, in units of the brightest
+/// direct light, samples do not resolve the surface, and the total stays.
+void balance_energy(const Surface& surface, const Transport& transport, const LightSystem& system,
+                    double most_change, TexelVector& total);
 
 /// t of the closed forms, from E/π at kSeenAlbedo.
 double deep_seen(const Transport& transport, const TexelVector& at_seen_albedo);
