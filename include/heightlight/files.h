@@ -103,11 +103,11 @@ void check_load_options(const LoadOptions& options);
 /// along the columns in proportion. `memory_limit` (bytes) is checked against the header's size before
 /// samples are read. The file is opened once: its checksum is that of the bytes that were read. Throws Error
 /// naming `path` and what is wrong: missing, a directory, empty, truncated or damaged, no known format,
-/// 0 × 0, larger than memory or 2^31 samples, nothing but missing samples, heights beyond float, several parts
-/// without `part`, channels that differ without `channel`, without `texel` a GeoTIFF whose place is rotated,
-/// odd or contradicts itself (georeference.h) or lengths in feet beside heights of an unknown unit or degrees
-/// of another body than the Earth, raw samples without `size`, written to while it was read; UsageError as
-/// check_load_options does, and for a `part` or `channel` that the file does not have.
+/// 0 × 0, larger than memory or 2^31 samples, nothing but missing samples, heights beyond float, several
+/// parts without `part`, channels that differ without `channel`, without `texel` a GeoTIFF whose place is
+/// rotated, odd or contradicts itself (georeference.h) or lengths in feet beside heights of an unknown unit
+/// or degrees of another body than the Earth, raw samples without `size`, written to while it was read;
+/// UsageError as check_load_options does, and for a `part` or `channel` that the file does not have.
 LoadedHeightmap load_heightmap(const std::filesystem::path& path, const LoadOptions& options,
                                std::uint64_t memory_limit);
 

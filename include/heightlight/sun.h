@@ -10,8 +10,8 @@ namespace heightlight {
 
 /// A disc of even radiance in the sky, far away.
 struct Sun {
-  double azimuth_rad = 0;         ///< of its middle, counterclockwise from x
-  double elevation_rad = 0;       ///< of its middle above the horizontal, in [0, π/2]
+  double azimuth_rad = 0;    ///< of its middle, counterclockwise from x
+  double elevation_rad = 0;  ///< of its middle above the horizontal, in [0, π/2]
   /// The sun's own in the mean is 0.533 degrees; in [0, 0.1], 0: a point.
   double diameter_rad = 0.533 * std::numbers::pi / 180;
 };

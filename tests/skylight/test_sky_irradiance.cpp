@@ -48,7 +48,8 @@ TEST_CASE("over walked horizons an even sky sends A", "[skylight]") {
 
 TEST_CASE("an overcast sky lights a level plain as 1, and a tilted one by its integral", "[skylight]") {
   const SkyIrradiance level = sky_irradiance(open_plain(4, 0), overcast_sky());
-  for (const double value : level.channels[0]) CHECK(value == Approx(1).epsilon(1e-5));  // 512 rows of radiance
+  for (const double value : level.channels[0])
+    CHECK(value == Approx(1).epsilon(1e-5));  // 512 rows of radiance
 
   // On a plane of tilt s: E/E₀ = 3/7 (1 + cos s)/2 + 4/7 ((1 + cos s)/2 with weight sinθ), by quadrature.
   const double tilt = std::atan(1.0);
@@ -58,14 +59,15 @@ TEST_CASE("an overcast sky lights a level plain as 1, and a tilted one by its in
     const double elevation = pi / 2 * (i + 0.5) / kSteps;
     for (int k = 0; k < kSteps; ++k) {
       const double azimuth = 2 * pi * (k + 0.5) / kSteps;
-      const double cosine = std::sin(elevation) * std::cos(tilt) -
-                            std::cos(elevation) * std::cos(azimuth) * std::sin(tilt);
+      const double cosine =
+          std::sin(elevation) * std::cos(tilt) - std::cos(elevation) * std::cos(azimuth) * std::sin(tilt);
       integral += std::max(0.0, cosine) * 9 / 7 * (1 + 2 * std::sin(elevation)) / 3 * std::cos(elevation);
     }
   }
   integral *= pi / 2 / kSteps * 2 * pi / kSteps / pi;
   const SkyIrradiance tilted = sky_irradiance(open_plain(5, 1), overcast_sky());
-  CHECK(tilted.channels[0][12] == Approx(integral).epsilon(2e-4));  // azimuths, and the quadrature's own steps
+  CHECK(tilted.channels[0][12] ==
+        Approx(integral).epsilon(2e-4));  // azimuths, and the quadrature's own steps
 }
 
 TEST_CASE("a sky of colours has three channels, of any number of threads, and none where a sample is missing",
