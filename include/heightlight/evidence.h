@@ -53,10 +53,12 @@ struct EnergyCheck {
 /// (1 − ρ) E, or escapes to the sky, A ρ E. That the three agree is reciprocity, which no gather knows of:
 /// form factors and sky view factors are found from the receivers' side alone.
 struct EnergyAudit {
-  double received = 0;   ///< mean E₀/π over the surface's area
-  double absorbed = 0;   ///< share of what is received
-  double escaped = 0;    ///< likewise
-  double imbalance = 0;  ///< 1 less both
+  double received = 0;         ///< mean E₀/π over the surface's area
+  double absorbed = 0;         ///< share of what is received
+  double escaped = 0;          ///< likewise
+  double imbalance = 0;        ///< 1 less both
+  double found_imbalance = 0;  ///< the same before the total was balanced, which light of one's own is: what
+                               ///< gathers and samples err by. Where nothing was balanced, as `imbalance`
 };
 
 /// The mean sky view factor of what texels see, weighted by how much of it they see.

@@ -3,6 +3,7 @@
 #include <omp.h>
 
 #include <charconv>
+#include <optional>
 
 #include "base/byte_size.h"
 #include "base/digits.h"
@@ -11,18 +12,17 @@
 namespace heightlight {
 namespace {
 
-double parse_length(const std::string& text, const std::string& whole) {
-  std::size_t used = 0;
+/// A number to its end; nothing for anything else.
+std::optional<double> parse_number(const std::string& text) {
   double value = 0;
-  try {
-    value = std::stod(text, &used);
-  } catch (const std::exception&) {
-    used = 0;
-  }
-  if (used == 0 || used != text.size()) {
-    throw UsageError("texel", whole, "write one spacing (50) or two (70.8x92.6)");
-  }
-  return value;
+  const auto [stop, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return fault == std::errc() && stop == text.data() + text.size() ? std::optional(value) : std::nullopt;
+}
+
+double parse_length(const std::string& text, const std::string& whole) {
+  const std::optional<double> value = parse_number(text);
+  if (!value) throw UsageError("texel", whole, "write one spacing (50) or two (70.8x92.6)");
+  return *value;
 }
 
 Spacing parse_spacing(const std::string& text) {
@@ -35,16 +35,10 @@ Spacing parse_spacing(const std::string& text) {
 }
 
 double parse_refraction(const std::string& text) {
-  std::size_t used = 0;
-  double value = 0;
-  try {
-    value = std::stod(text, &used);
-  } catch (const std::exception&) {
-    used = 0;
-  }
-  if (used == 0 || used != text.size() || !(value >= 0 && value < 1))
+  const std::optional<double> value = parse_number(text);
+  if (!value || !(*value >= 0 && *value < 1))
     throw UsageError("curvature", text, "write the coefficient of refraction, from 0 to below 1, or nothing");
-  return value;
+  return *value;
 }
 
 std::array<int, 2> parse_size(const std::string& text) {

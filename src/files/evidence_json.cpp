@@ -109,7 +109,8 @@ Json describe_evidence(const Evidence& evidence) {
     json["energy_audit"].push_back({{"received_over_pi", audit.received},
                                     {"absorbed", audit.absorbed},
                                     {"escaped", audit.escaped},
-                                    {"imbalance", audit.imbalance}});
+                                    {"imbalance", audit.imbalance},
+                                    {"found_imbalance", audit.found_imbalance}});
   }
   if (!evidence.bounce_rmse.empty()) json["bounces_rmse"] = evidence.bounce_rmse;
   if (evidence.energy) json["energy"] = describe_energy(evidence);

@@ -216,17 +216,26 @@ TEST_CASE("three channels of light bounce each for itself", "[solve]") {
   CHECK_THROWS_WITH(solve(surface, request), Catch::Contains("direct"));
 }
 
-TEST_CASE("what is received is absorbed or escapes", "[solve]") {
-  const Surface surface = make_surface("fbm", 96, 0.3F);
+TEST_CASE("what is received is absorbed or escapes, as well as samples resolve the surface", "[solve]") {
   Request request = coarse_request();
   request.accuracy = {.visibility = Visibility::exact_slices, .azimuths = 64};
   request.wanted = {.totals = {{.constant = {0.2}}, {.constant = {0.8}}, {.constant = {1}}}};
-  const std::vector<EnergyAudit> audits = solve(surface, request).evidence.audits;
-  REQUIRE(audits.size() == 3);
-  for (const EnergyAudit& audit : audits) CHECK(std::abs(audit.imbalance) < 2e-3);  // discretisation
-  CHECK(audits[2].absorbed == 0);
-  CHECK(std::abs(audits[2].imbalance) < 1e-7);  // all is 1 there, which is the solver's tolerance
-  CHECK(audits[0].absorbed > 0.7);
+  std::vector<EnergyAudit> coarser;
+  for (const int side : {32, 64}) {
+    const Surface surface = build_surface(make_map(side, side, Boundary::tile, [side](int row, int column) {
+      return 0.05 * std::sin(12.5663706 * column / side) * std::cos(12.5663706 * row / side);
+    }));
+    const std::vector<EnergyAudit> audits = solve(surface, request).evidence.audits;
+    REQUIRE(audits.size() == 3);
+    CHECK(audits[0].absorbed > 0.7);
+    CHECK(audits[2].absorbed == 0);
+    CHECK(std::abs(audits[2].imbalance) < 1e-7);  // all is 1 there, which is the solver's tolerance
+    for (std::size_t i = 0; i < coarser.size() && i < 2; ++i) {
+      INFO(coarser[i].imbalance << " becomes " << audits[i].imbalance);
+      CHECK(std::abs(audits[i].imbalance) < 0.5 * std::abs(coarser[i].imbalance));  // discretisation
+    }
+    coarser = audits;
+  }
 }
 
 TEST_CASE("light of one's own is balanced, and no worse for it", "[solve]") {
@@ -243,7 +252,8 @@ TEST_CASE("light of one's own is balanced, and no worse for it", "[solve]") {
   request.accuracy = {.visibility = Visibility::exact_slices, .azimuths = 128};
   const Results exact = solve(surface, request);
   for (const Results* found : {&walked, &exact})
-    CHECK(std::abs(found->evidence.audits.at(0).imbalance) < 1e-9);  // identity
+    CHECK(std::abs(found->evidence.audits.at(0).imbalance) < 1e-9);   // identity
+  CHECK(std::abs(walked.evidence.audits[0].found_imbalance) > 1e-6);  // what walks err by is not hidden
   const Eigen::VectorXd error = as_eigen(walked.totals[0][0]) - as_eigen(exact.totals[0][0]);
   CHECK(error.norm() / std::sqrt(static_cast<double>(lit.size())) < 1.15 * 0.002);
 }

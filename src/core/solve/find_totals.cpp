@@ -33,14 +33,21 @@ std::vector<LightSystem> list_systems(const Task& task, bool seen) {
   return systems;
 }
 
-/// Of light of one's own. The sky's is left as it is: where all is 1 at ρ = 1, walks are scaled for that.
-Totals solve_balanced(const Task& task, const Transport& transport, const std::vector<LightSystem>& systems) {
+/// Totals, balanced where light is one's own.
+struct BalancedTotals : Totals {
+  std::vector<double> found_imbalance;  ///< per system, before that
+};
+
+/// The sky's totals are left as they are: where all is 1 at ρ = 1, walks are scaled for that.
+BalancedTotals solve_balanced(const Task& task, const Transport& transport,
+                              const std::vector<LightSystem>& systems) {
   constexpr double kShareOfError = 0.3;
-  Totals solved = transport.solve(systems, task.request.watch);
+  BalancedTotals solved{transport.solve(systems, task.request.watch), {}};
   for (std::size_t i = 0; i < systems.size(); ++i) {
+    TexelVector& total = solved.irradiance[i];
+    solved.found_imbalance.push_back(audit_energy(task.surface, transport, systems[i], total).imbalance);
     if (systems[i].direct)
-      balance_energy(task.surface, transport, systems[i], kShareOfError * task.request.accuracy.error,
-                     solved.irradiance[i]);
+      balance_energy(task.surface, transport, systems[i], kShareOfError * task.request.accuracy.error, total);
   }
   return solved;
 }
@@ -66,7 +73,7 @@ std::vector<HorizonCheck> check_totals(const Task& task, const Transport& transp
 
 /// Totals, and what they err by, per system.
 struct Checked {
-  Totals& totals;
+  BalancedTotals& totals;
   std::vector<HorizonCheck> checks;
 };
 
@@ -76,10 +83,11 @@ void find_again(const Task& task, const std::vector<LightSystem>& systems,
   std::vector<LightSystem> again;
   for (const std::size_t i : which) again.push_back(systems[i]);
   const PlannedTransport finer = find_operator(task, share * task.request.accuracy.error, {});
-  Totals found = solve_balanced(task, *finer.transport, again);
+  BalancedTotals found = solve_balanced(task, *finer.transport, again);
   const std::vector<HorizonCheck> found_checks = check_totals(task, *finer.transport, again, found);
   for (std::size_t k = 0; k < which.size(); ++k) {
     checked.totals.irradiance[which[k]] = std::move(found.irradiance[k]);
+    checked.totals.found_imbalance[which[k]] = found.found_imbalance[k];
     checked.checks[which[k]].total_rmse = found_checks[k].total_rmse;
     checked.checks[which[k]].total_standard_error = found_checks[k].total_standard_error;
   }
@@ -116,7 +124,7 @@ void keep_worst_channels(const Wanted& wanted, const std::vector<HorizonCheck>& 
 
 /// Of all that the request wants; the last of `solved` may be at kSeenAlbedo, which is nobody's to judge.
 void check_and_refine(const Task& task, const Transport& transport, std::vector<LightSystem> systems,
-                      Totals& solved, Evidence& evidence) {
+                      BalancedTotals& solved, Evidence& evidence) {
   const Request& request = task.request;
   std::size_t wanted = 0;
   for (const Albedo& albedo : request.wanted.totals) wanted += total_channels(request.wanted, albedo);
@@ -147,7 +155,7 @@ TexelVector find_totals(const Task& task, const Transport& transport, Results& r
   const bool seen = wanted.seen || wanted.bounces > 0;
   const std::vector<LightSystem> systems = list_systems(task, seen);
   Stopwatch watch;
-  Totals solved = solve_balanced(task, transport, systems);
+  BalancedTotals solved = solve_balanced(task, transport, systems);
   note_solver(solved.residual, solved.iterations, evidence);
   evidence.seconds.bounces += watch.lap();
   const bool checks =
@@ -161,6 +169,7 @@ TexelVector find_totals(const Task& task, const Transport& transport, Results& r
     for (std::size_t c = 0; c < total_channels(wanted, albedo); ++c) {
       const auto i = static_cast<std::size_t>(next - solved.irradiance.begin());
       evidence.audits.push_back(audit_energy(task.surface, transport, systems[i], *next));
+      evidence.audits.back().found_imbalance = solved.found_imbalance[i];
       channels.push_back(std::move(*next++));
     }
   }
