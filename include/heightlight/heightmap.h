@@ -26,7 +26,9 @@ struct Heightmap {
   double base = 0;  ///< world height of 0 in `height`; the lowest sample, so that height >= 0
   Spacing spacing;
   Boundary boundary = Boundary::tile;
-  double curvature = 0;  ///< κ, per world unit: heights were lowered by κ r² (curve_heights)
+  double curvature = 0;         ///< κ, per world unit: heights were lowered by κ r² (curve_heights)
+  double curved_about_row = 0;  ///< where r is 0, in samples from the first; means nothing where κ is 0
+  double curved_about_column = 0;
 };
 
 /// Peak-to-valley height of the samples present, in world units; 0 where none is.
@@ -49,6 +51,9 @@ constexpr double kUsualRefraction = 0.13;
 /// second order in r/R. Throws UsageError for a map that tiles or is curved already, and for k outside
 /// [0, 1).
 Heightmap curve_heights(Heightmap map, double refraction = kUsualRefraction);
+
+/// κ r² at a sample: by how much a curved map lowered its height.
+double curvature_drop(const Heightmap& map, int row, int column);
 
 /// Slopes along x and y.
 struct Gradient {

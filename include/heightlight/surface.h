@@ -1,8 +1,12 @@
 #pragma once
 
+#include <memory>
+
 #include "heightlight/heightmap.h"
 
 namespace heightlight {
+
+struct Surroundings;
 
 /// The triangulated surface that every method shares. Samples are vertices; each cell is cut from (row i,
 /// column j) to (i+1, j+1). A cell is named by its upper left vertex; under `tile` the last row and column
@@ -13,8 +17,10 @@ namespace heightlight {
 struct Surface {
   Heightmap map;
   Image<Vector3> normal;  ///< unit, z > 0; NaN where the sample is missing
-  float highest = 0;      ///< of map.height
+  float highest = 0;      ///< of map.height, or of the whole map that it is a window of
   float lowest = 0;
+  /// What lies around a window of a larger map; null: the surface is the whole map.
+  std::shared_ptr<const Surroundings> around = {};
 
   int width() const { return map.height.width; }
   int height() const { return map.height.height; }

@@ -29,8 +29,8 @@ namespace {
 
 constexpr double kEarthRadius = 6371008.8;  // metres: the mean radius R₁ of the IUGG
 
-/// Places from the middle of a line of samples.
-double from_middle(int i, int count) { return i - 0.5 * (count - 1); }
+/// The middle of a line of samples.
+double middle(int count) { return 0.5 * (count - 1); }
 
 }  // namespace
 
@@ -43,11 +43,9 @@ Heightmap curve_heights(Heightmap map, double refraction) {
                      "is the coefficient of refraction, at least 0 and less than 1");
   map.curvature = (1 - refraction) / (2 * kEarthRadius);
   Image<float>& heights = map.height;
-  const auto drop = [&](int row, int column) {
-    const double x = from_middle(column, heights.width) * map.spacing.x;
-    const double y = from_middle(row, heights.height) * map.spacing.y;
-    return map.curvature * (x * x + y * y);
-  };
+  map.curved_about_row = middle(heights.height);
+  map.curved_about_column = middle(heights.width);
+  const auto drop = [&](int row, int column) { return curvature_drop(map, row, column); };
   double lowest = std::numeric_limits<double>::infinity();
   for (int row = 0; row < heights.height; ++row) {
     for (int column = 0; column < heights.width; ++column) {
@@ -67,10 +65,16 @@ Heightmap curve_heights(Heightmap map, double refraction) {
   return map;
 }
 
+double curvature_drop(const Heightmap& map, int row, int column) {
+  const double x = (column - map.curved_about_column) * map.spacing.x;
+  const double y = (row - map.curved_about_row) * map.spacing.y;
+  return map.curvature * (x * x + y * y);
+}
+
 Gradient level_gradient(const Heightmap& map, int row, int column) {
   const double per_way = -2 * map.curvature;
-  return {per_way * from_middle(column, map.height.width) * map.spacing.x,
-          -per_way * from_middle(row, map.height.height) * map.spacing.y};  // rows run down, y up
+  return {per_way * (column - map.curved_about_column) * map.spacing.x,
+          -per_way * (row - map.curved_about_row) * map.spacing.y};  // rows run down, y up
 }
 
 }  // namespace heightlight

@@ -52,8 +52,8 @@ class GatherLanes {
   GatherLanes(const GatherTask& task, const GatherAzimuth& azimuth, int row, int column)
       : task_(task),
         azimuth_(azimuth),
-        row_(task.tile.first_row + row),
-        column_(task.tile.first_column + column),
+        row_(task.tile.map_row + row),
+        column_(task.tile.map_column + column),
         at_(static_cast<std::size_t>(row * ReceiverTile::kSide + column)) {
     const ReceiverTile& tile = task.tile;
     for (std::size_t v = 0; v < kGatherRows; ++v) {
@@ -206,7 +206,7 @@ class GatherLanes {
 
   /// Of the first receiver in a row.
   HWY_INLINE const float* address(const FieldPyramid::Level& level, std::size_t v) const {
-    return level.origin() + (row_ + static_cast<int>(v)) * level.stride() + column_;
+    return level.block(row_ + static_cast<int>(v), column_);
   }
 
   /// The blocks that neighbouring receivers look at.
@@ -218,8 +218,7 @@ class GatherLanes {
     const int phase = start & ((1 << level) - 1);
     const auto order =
         hn::IndicesFromVec(kGF, hn::ShiftRightSame(hn::Add(hn::Set(kGI, phase), hn::Iota(kGI, 0)), level));
-    return hn::TableLookupLanes(
-        hn::LoadU(kGF, blocks.origin() + (row >> level) * blocks.stride() + (start >> level)), order);
+    return hn::TableLookupLanes(hn::LoadU(kGF, blocks.block(row >> level, start >> level)), order);
   }
 
   HWY_INLINE GV value_at(std::size_t field, std::size_t v, std::size_t number) const {

@@ -54,8 +54,8 @@ MapGather::MapGather(const Surface& surface, const HeightMips& mips, const WalkO
     : surface_(surface), options_(options), scene_(build_horizon_scene(surface, mips, options)) {}
 
 FieldPyramid MapGather::make_pyramid() const {
-  // Up to one block, so that holes find a value.
-  const int to_one = levels_to_one(surface_.width(), surface_.height());
+  // Up to one block, so that holes find a value. Those of windows have found theirs.
+  const int to_one = surface_.around ? 0 : levels_to_one(surface_.width(), surface_.height());
   return {surface_, std::max(ring_count(surface_, options_), to_one), walk_reach(options_)};
 }
 

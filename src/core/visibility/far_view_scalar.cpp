@@ -46,8 +46,8 @@ void look_far_scalar(const WalkTile& tile, const AzimuthTable& azimuth, FarView&
   for (int wide_row = 0; wide_row * wide.side < tile.rows; ++wide_row) {
     for (int wide_column = 0; wide_column < wide.across; ++wide_column) {
       const auto w = static_cast<std::size_t>(wide_row * wide.across + wide_column);
-      const int row = tile.first_row + wide_row * wide.side + wide.side / 2;
-      const int column = tile.first_column + wide_column * wide.side + wide.side / 2;
+      const int row = tile.map_row + wide_row * wide.side + wide.side / 2;
+      const int column = tile.map_column + wide_column * wide.side + wide.side / 2;
       Envelope shared(wide.lowest[w], wide.highest[w]);
       for (int ring = kWideGroupRing; ring <= rings; ++ring) {
         look_at_ring(tile, azimuth, ring, row, column, shared);
@@ -56,8 +56,8 @@ void look_far_scalar(const WalkTile& tile, const AzimuthTable& azimuth, FarView&
         const int i = 2 * wide_row + child / 2;
         const int j = 2 * wide_column + child % 2;
         const auto g = static_cast<std::size_t>(i * groups.across + j);
-        const int child_row = tile.first_row + i * groups.side + groups.side / 2;
-        const int child_column = tile.first_column + j * groups.side + groups.side / 2;
+        const int child_row = tile.map_row + i * groups.side + groups.side / 2;
+        const int child_column = tile.map_column + j * groups.side + groups.side / 2;
         const float nearer = static_cast<float>(child_row - row) * azimuth.along_row +
                              static_cast<float>(child_column - column) * azimuth.along_column;
         Envelope own(groups.lowest[g], groups.highest[g]);

@@ -93,8 +93,8 @@ void look_from_wide_groups(const WalkTile& tile, const AzimuthTable& azimuth, in
   for (int j = 0; j < groups.across; j += static_cast<int>(hn::Lanes(WideGroups()))) {
     Envelopes<WideGroups> envelopes(groups, static_cast<std::size_t>(i * groups.across + j));
     for (int ring = kWideGroupRing; ring <= rings; ++ring) {
-      look_at_ring(tile, azimuth, ring, tile.first_row + i * groups.side + groups.side / 2,
-                   tile.first_column + j * groups.side + groups.side / 2, groups.side, envelopes);
+      look_at_ring(tile, azimuth, ring, tile.map_row + i * groups.side + groups.side / 2,
+                   tile.map_column + j * groups.side + groups.side / 2, groups.side, envelopes);
     }
     envelopes.store(row.height.data() + j, row.per_distance.data() + j, WideRow::kStride);
   }
@@ -123,8 +123,8 @@ void look_from_groups(const WalkTile& tile, const AzimuthTable& azimuth, const W
       own.see(height, hn::MulAdd(hn::Mul(nearer, per_d), per_d, per_d));
     }
     if (static_cast<int>(azimuth.rings.size()) >= kGroupRing) {
-      look_at_ring(tile, azimuth, kGroupRing, tile.first_row + i * groups.side + groups.side / 2,
-                   tile.first_column + j * groups.side + groups.side / 2, groups.side, own);
+      look_at_ring(tile, azimuth, kGroupRing, tile.map_row + i * groups.side + groups.side / 2,
+                   tile.map_column + j * groups.side + groups.side / 2, groups.side, own);
     }
     own.store(view.height[0].data() + first, view.per_distance[0].data() + first, view.height[0].size());
   }

@@ -7,18 +7,24 @@
 
 #include "base/parallel.h"
 #include "surface/blocks.h"
+#include "visibility/field_levels.h"
 #include "visibility/height_mips.h"
+#include "visibility/surroundings.h"
 
 namespace heightlight {
 namespace {
 
 /// Without values.
-std::vector<FieldPyramid::Level> lay_out(int width, int height, int levels, int reach) {
+std::vector<FieldPyramid::Level> lay_out(const WindowPlace& place, int levels, int reach) {
   std::vector<FieldPyramid::Level> layout;
   for (int l = 0; l <= levels; ++l) {
-    layout.push_back({.width = width, .height = height, .margin = reach, .values = {}});
-    width = half_blocks(width);
-    height = half_blocks(height);
+    const WindowBlocks blocks = window_blocks(place, l, 0);
+    layout.push_back({.first_row = blocks.first_row,
+                      .first_column = blocks.first_column,
+                      .width = blocks.width,
+                      .height = blocks.height,
+                      .margin = reach,
+                      .values = {}});
   }
   return layout;
 }
@@ -30,27 +36,29 @@ std::size_t value_count(const FieldPyramid::Level& level) {
 }  // namespace
 
 FieldPyramid::FieldPyramid(const Surface& surface, int levels, int reach)
-    : surface_(surface), levels_(lay_out(surface.width(), surface.height(), levels, reach)) {
+    : surface_(surface), levels_(lay_out(place_in_map(surface), levels, reach)) {
   for (Level& level : levels_) level.values.assign(value_count(level), 0);
 }
 
 void FieldPyramid::fill(const Map& values) {
   Level& finest = levels_[0];
-  assert(values.width == finest.width && values.height == finest.height);
+  assert(!surface_.around && values.width == finest.width && values.height == finest.height);
   parallel_for(finest.height, [&](std::int64_t row) {
     std::copy_n(values.values.data() + row * finest.width, finest.width,
                 finest.origin() + row * finest.stride());
   });
-  for (std::size_t l = 1; l < levels_.size(); ++l) coarsen(l);
+  for (std::size_t l = 1; l < levels_.size(); ++l) coarsen_field(view(l - 1), view(l));
   for (std::size_t l = levels_.size(); l-- > 0;) {
-    fill_holes(l);
+    const bool is_last = l + 1 == levels_.size();
+    const FieldView coarse = is_last ? FieldView{} : view(l + 1);
+    fill_field_holes(view(l), is_last ? nullptr : &coarse);
     fill_margins(l, nullptr);
   }
 }
 
 void FieldPyramid::fill_heights(int l, const Map& heights) {
   Level& level = levels_[static_cast<std::size_t>(l)];
-  assert(heights.width == level.width && heights.height == level.height);
+  assert(!surface_.around && heights.width == level.width && heights.height == level.height);
   parallel_for(level.height, [&](std::int64_t row) {
     const float* from = heights.values.data() + row * level.width;
     std::transform(from, from + level.width, level.origin() + row * level.stride(),
@@ -59,43 +67,15 @@ void FieldPyramid::fill_heights(int l, const Map& heights) {
   fill_margins(static_cast<std::size_t>(l), &kNoHeight);
 }
 
-void FieldPyramid::coarsen(std::size_t l) {
-  const Level& fine = levels_[l - 1];
-  Level& coarse = levels_[l];
-  parallel_for(coarse.height, [&](std::int64_t row) {
-    float* out = coarse.origin() + row * coarse.stride();
-    const float* upper = fine.origin() + 2 * row * fine.stride();
-    const float* lower = 2 * row + 1 < fine.height ? upper + fine.stride() : upper;
-    for (int column = 0; column < coarse.width; ++column) {
-      const int left = 2 * column;
-      const int right = std::min(left + 1, fine.width - 1);
-      const float all = 0.25F * (upper[left] + upper[right] + lower[left] + lower[right]);
-      if (!std::isnan(all)) {
-        out[column] = all;
-        continue;
-      }
-      float sum = 0;
-      int present = 0;
-      for (const float part : {upper[left], upper[right], lower[left], lower[right]}) {
-        if (std::isnan(part)) continue;
-        sum += part;
-        ++present;
-      }
-      out[column] = sum / static_cast<float>(present);
-    }
-  });
+FieldView FieldPyramid::view(std::size_t l) {
+  Level& level = levels_[l];
+  return {level.origin(), level.stride(), level.width, level.height};
 }
 
-void FieldPyramid::fill_holes(std::size_t l) {
-  Level& fine = levels_[l];
-  const Level* coarse = l + 1 < levels_.size() ? &levels_[l + 1] : nullptr;
-  parallel_for(fine.height, [&](std::int64_t row) {
-    float* line = fine.origin() + row * fine.stride();
-    const float* parents = coarse ? coarse->origin() + row / 2 * coarse->stride() : nullptr;
-    for (int column = 0; column < fine.width; ++column) {
-      if (std::isnan(line[column])) line[column] = parents ? parents[column / 2] : 0;
-    }
-  });
+void FieldPyramid::take_level(int l, Map values) {
+  Level& level = levels_[static_cast<std::size_t>(l)];
+  assert(values.size() == value_count(level) && values.width == level.stride());
+  level.values = std::move(values.values);
 }
 
 /// `outside`: what stands beyond the edges of a map that does not tile; null: its outermost values.
@@ -142,7 +122,8 @@ int levels_to_one(int width, int height) {
 
 std::uint64_t field_pyramid_bytes(int width, int height, int levels, int reach) {
   std::uint64_t bytes = 0;
-  for (const FieldPyramid::Level& level : lay_out(width, height, levels, reach))
+  const WindowPlace whole{.map_width = width, .map_height = height, .width = width, .height = height};
+  for (const FieldPyramid::Level& level : lay_out(whole, levels, reach))
     bytes += value_count(level) * sizeof(float);
   return bytes;
 }

@@ -5,6 +5,7 @@
 
 #include "heightlight/image.h"
 #include "heightlight/surface.h"
+#include "visibility/field_levels.h"
 
 namespace heightlight {
 
@@ -13,6 +14,8 @@ namespace heightlight {
 class FieldPyramid {
  public:
   struct Level {
+    int first_row = 0;  ///< block of the map that row 0 is; not 0 in windows of a larger map alone
+    int first_column = 0;
     int width = 0;  ///< blocks, without the margin
     int height = 0;
     int margin = 0;
@@ -22,6 +25,10 @@ class FieldPyramid {
     /// Of the block in row 0 and column 0.
     const float* origin() const { return values.data() + margin * stride() + margin; }
     float* origin() { return values.data() + margin * stride() + margin; }
+    /// Of a block by its place in the map.
+    const float* block(int row, int column) const {
+      return values.data() + (row - first_row + margin) * stride() + (column - first_column + margin);
+    }
   };
 
   /// `levels` above the samples themselves; `reach`: blocks beyond the map's edges that reading may touch.
@@ -35,11 +42,15 @@ class FieldPyramid {
   /// Level l alone, from a value per block, kNoHeight beyond the edges of a map that does not tile.
   void fill_heights(int l, const Map& heights);
 
+  /// Level l alone of a window's pyramid, margin included, from values that are there everywhere.
+  void take_level(int l, Map values);
+
+  /// The samples' among them.
+  int levels() const { return static_cast<int>(levels_.size()); }
   const Level& level(int l) const { return levels_[static_cast<std::size_t>(l)]; }
 
  private:
-  void coarsen(std::size_t l);
-  void fill_holes(std::size_t l);
+  FieldView view(std::size_t l);
   void fill_margins(std::size_t l, const float* outside);
 
   const Surface& surface_;

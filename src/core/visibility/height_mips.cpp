@@ -25,7 +25,9 @@ struct Children {
   }
 };
 
-HeightMips::Level coarsen(const Image<float>& mean, const Image<float>& highest) {
+}  // namespace
+
+HeightMips::Level coarsen_heights(const Image<float>& mean, const Image<float>& highest) {
   HeightMips::Level level{Image<float>(half_blocks(mean.width), half_blocks(mean.height)),
                           Image<float>(half_blocks(mean.width), half_blocks(mean.height))};
   parallel_for(level.mean.height, [&](std::int64_t line) {
@@ -45,8 +47,6 @@ HeightMips::Level coarsen(const Image<float>& mean, const Image<float>& highest)
   return level;
 }
 
-}  // namespace
-
 std::uint64_t height_mips_bytes(int width, int height) {
   std::uint64_t samples = 0;
   while (width > 1 || height > 1) {
@@ -59,12 +59,13 @@ std::uint64_t height_mips_bytes(int width, int height) {
 
 HeightMips build_height_mips(const Surface& surface) {
   HeightMips mips;
+  if (surface.around) return mips;
   if (has_loose_samples(surface)) mips.occluders = occluding_heights(surface);
   const Image<float>* mean = &mips.level_0(surface);
   const Image<float>* highest = mean;
   while (mean->width > 1 || mean->height > 1) {
     mips.levels.reserve(32);  // so that the pointers into it stay
-    mips.levels.push_back(coarsen(*mean, *highest));
+    mips.levels.push_back(coarsen_heights(*mean, *highest));
     mean = &mips.levels.back().mean;
     highest = &mips.levels.back().highest;
   }

@@ -29,6 +29,11 @@ constexpr float kNoHeight = -1e30F;
 /// Bytes that build_height_mips takes for a map of that size.
 std::uint64_t height_mips_bytes(int width, int height);
 
+/// Those of a window of a larger map are in its Surroundings: it has none here.
 HeightMips build_height_mips(const Surface& surface);
+
+/// The level above one, whose blocks hold means and highest heights; level 0 has its samples for both, NaN
+/// where missing.
+HeightMips::Level coarsen_heights(const Image<float>& mean, const Image<float>& highest);
 
 }  // namespace heightlight

@@ -1,9 +1,11 @@
 #include "visibility/horizon_scene.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "base/texels.h"
+#include "visibility/surroundings.h"
 #include "visibility/walk_tile.h"
 
 namespace heightlight {
@@ -21,23 +23,67 @@ Map ring_heights(const HeightMips& mips, int l, float peak_share) {
   return heights;
 }
 
-/// Each height and kLift of what the highest around it has above it; `level` has margins, the outermost rows
-/// and columns of which stay as they are.
-Map lifted_heights(const FieldPyramid::Level& level) {
-  Map lifted(level.width, level.height);
+/// Of a level of a window, margin included, what rings see.
+Map ring_heights(const Surroundings::Level& blocks, float peak_share) {
+  Map heights = blocks.mean;
+  for_texels(heights, [&](std::size_t i) {
+    float& height = heights.values[i];
+    if (height != kNoHeight) height += peak_share * (blocks.highest.values[i] - height);
+  });
+  return heights;
+}
+
+/// Missing ones as heights that stand in nobody's way.
+Map sample_heights(Map heights) {
+  for_texels(heights, [&](std::size_t i) {
+    if (std::isnan(heights.values[i])) heights.values[i] = kNoHeight;
+  });
+  return heights;
+}
+
+/// Each height and kLift of what the highest around it has above it, of all but `beside` blocks of the
+/// level's margin, at least 1.
+Map lifted_heights(const FieldPyramid::Level& level, int beside) {
+  const int margin = level.margin - beside;
+  Map lifted(level.width + 2 * margin, level.height + 2 * margin);
   const std::ptrdiff_t stride = level.stride();
-  parallel_for(level.height, [&](std::int64_t row) {
-    const float* here = level.origin() + row * stride;
-    float* out = lifted.values.data() + row * level.width;
-    for (std::ptrdiff_t column = 0; column < level.width; ++column) {
+  parallel_for(lifted.height, [&](std::int64_t row) {
+    const float* here = level.origin() + (row - margin) * stride - margin;
+    float* out = lifted.values.data() + row * lifted.width;
+    for (std::ptrdiff_t column = 0; column < lifted.width; ++column) {
       float peak = here[column];
       for (const std::ptrdiff_t line : {-stride, std::ptrdiff_t{0}, stride}) {
-        for (const std::ptrdiff_t beside : {-1, 0, 1}) peak = std::max(peak, here[column + line + beside]);
+        for (const std::ptrdiff_t aside : {-1, 0, 1}) peak = std::max(peak, here[column + line + aside]);
       }
       out[column] = here[column] + WalkTile::kLift * (peak - here[column]);
     }
   });
   return lifted;
+}
+
+/// A level of a window with a margin of `reach` blocks, out of those that hold more.
+Map with_margin(const Map& level, int margin, int reach) {
+  const int left_out = margin - reach;
+  assert(left_out >= 0);
+  Map part(level.width - 2 * left_out, level.height - 2 * left_out);
+  for (int row = 0; row < part.height; ++row)
+    std::copy_n(&level(row + left_out, left_out), part.width, &part(row, 0));
+  return part;
+}
+
+void fill_from_surroundings(const Surroundings& around, int rings, float peak_share, HorizonScene& scene) {
+  const int reach = scene.heights.level(0).margin;
+  assert(static_cast<std::size_t>(rings) < around.levels.size());
+  for (int l = 0; l <= rings; ++l) {
+    const Surroundings::Level& level = around.levels[static_cast<std::size_t>(l)];
+    const Map heights = l == 0 ? sample_heights(level.mean) : ring_heights(level, peak_share);
+    scene.heights.take_level(l, with_margin(heights, around.margin, reach));
+  }
+  // The margin's outermost samples, which nothing but the padding of vectors reads, stay as they are.
+  const Map inner = lifted_heights(scene.heights.level(0), 1);
+  Map lifted = with_margin(sample_heights(around.levels[0].mean), around.margin, reach);
+  for (int row = 0; row < inner.height; ++row) std::copy_n(&inner(row, 0), inner.width, &lifted(row + 1, 1));
+  scene.lifted.take_level(0, std::move(lifted));
 }
 
 }  // namespace
@@ -48,6 +94,10 @@ HorizonScene build_horizon_scene(const Surface& surface, const HeightMips& mips,
   const int rings = ring_count(surface, options);
   const int reach = walk_reach(options);
   HorizonScene scene{{surface, rings, reach}, {surface, 0, reach}};
+  if (surface.around) {
+    fill_from_surroundings(*surface.around, rings, options.peak_share, scene);
+    return scene;
+  }
   scene.heights.fill_heights(0, mips.level_0(surface));
   for (int l = 1; l <= rings; ++l) {
     const int known = std::min(l, static_cast<int>(mips.levels.size()));
@@ -57,7 +107,7 @@ HorizonScene build_horizon_scene(const Surface& surface, const HeightMips& mips,
       scene.heights.fill_heights(l, ring_heights(mips, known, options.peak_share));
     }
   }
-  scene.lifted.fill_heights(0, lifted_heights(scene.heights.level(0)));
+  scene.lifted.fill_heights(0, lifted_heights(scene.heights.level(0), reach));
   return scene;
 }
 

@@ -26,8 +26,8 @@ float exit_slope(const ProfilePoint& begin, const ProfilePoint& end, const Reach
 
 float near_slope(const WalkTile& tile, const AzimuthTable& azimuth, std::size_t k, int i, int j) {
   const NearSample& sample = azimuth.near[k];
-  const int row = tile.first_row + i;
-  const int column = tile.first_column + j;
+  const int row = tile.map_row + i;
+  const int column = tile.map_column + j;
   const HeightWindow& window = k < azimuth.lifted ? tile.windows[0] : tile.lifted;
   const float weighted = sample.weight[0] * window.at(row + sample.row[0], column + sample.column[0]) +
                          sample.weight[1] * window.at(row + sample.row[1], column + sample.column[1]);
@@ -36,8 +36,8 @@ float near_slope(const WalkTile& tile, const AzimuthTable& azimuth, std::size_t 
 
 float ring_slope(const WalkTile& tile, const RingSample& sample, int ring, int i, int j) {
   const HeightWindow& window = tile.windows[static_cast<std::size_t>(ring)];
-  const float height = window.at((tile.first_row + i + sample.row) >> window.level,
-                                 (tile.first_column + j + sample.column) >> window.level);
+  const float height = window.at((tile.map_row + i + sample.row) >> window.level,
+                                 (tile.map_column + j + sample.column) >> window.level);
   return (height - tile.height[static_cast<std::size_t>(i * WalkTile::kSide + j)]) * sample.per_distance;
 }
 

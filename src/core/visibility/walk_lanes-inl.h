@@ -221,7 +221,7 @@ class LaneWalk {
   template <class See>
   HWY_INLINE void for_near_of(const Bunch& bunch, const HeightWindow& window, std::size_t first,
                               std::size_t end, See& see) const {
-    const float* here = window.address(tile_.first_row + bunch.row, tile_.first_column + bunch.column);
+    const float* here = window.address(tile_.map_row + bunch.row, tile_.map_column + bunch.column);
     for (std::size_t k = first; k < end; ++k) {
       const NearSample& sample = azimuth_.near[k];
       const float* from = here + sample.offset[0];
@@ -270,13 +270,13 @@ class LaneWalk {
       const int level = window.level;
       for (std::size_t k = 0; k < reach.caps[ring].size(); ++k) {
         const RingSample& sample = azimuth_.rings[ring][k];
-        const int first = tile_.first_column + bunch.column + sample.column;
+        const int first = tile_.map_column + bunch.column + sample.column;
         const float* column = window.values.data() + (first >> level) - window.first_column;
         const VI blocks = hn::ShiftRightSame(hn::Iota(kI, first & ((1 << level) - 1)), level);
         const auto order = hn::IndicesFromVec(kF, blocks);
         const VF per_distance = hn::Set(kF, sample.per_distance);
         for (std::size_t v = 0; v < kBunch; ++v) {
-          const int row = (tile_.first_row + bunch.row + static_cast<int>(v) + sample.row) >> level;
+          const int row = (tile_.map_row + bunch.row + static_cast<int>(v) + sample.row) >> level;
           const float* blocks_of_row = column + std::ptrdiff_t{row - window.first_row} * window.width;
           const VF height = hn::TableLookupLanes(hn::LoadU(kF, blocks_of_row), order);
           see(sample, reach.caps[ring][k], v, hn::Mul(hn::Sub(height, bunch.height[v]), per_distance));

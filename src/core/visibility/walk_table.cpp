@@ -6,6 +6,7 @@
 #include <string>
 
 #include "heightlight/error.h"
+#include "visibility/surroundings.h"
 
 namespace heightlight {
 namespace {
@@ -132,8 +133,9 @@ int ring_count(const Surface& surface, const WalkOptions& options) {
   constexpr double kLeastSlope = 0.004;
   const double relief = double{surface.highest} - double{surface.lowest};
   const double finest = std::min(surface.map.spacing.x, surface.map.spacing.y);
-  const double columns = surface.width();
-  const double rows = surface.height();
+  const WindowPlace place = place_in_map(surface);
+  const double columns = place.map_width;
+  const double rows = place.map_height;
   const double farthest = surface.tiles() ? 4 * std::max(columns, rows) : std::hypot(columns, rows);
   int rings = 0;
   for (double t = 4.0 * options.fineness; t < farthest && relief > kLeastSlope * t * finest; t *= 2) ++rings;

@@ -1,9 +1,11 @@
 #include "visibility/walk_tile.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "surface/blocks.h"
+#include "visibility/surroundings.h"
 
 namespace heightlight {
 namespace {
@@ -72,6 +74,20 @@ void copy_heights(const float* heights, int count, float reference, float* out) 
   }
 }
 
+/// How the heights of blocks are made.
+struct Blend {
+  float peak_share;
+  float reference;
+};
+
+void blend_heights(const float* mean, const float* highest, int count, const Blend& blend, float* out) {
+#pragma omp simd
+  for (int i = 0; i < count; ++i) {
+    const float height = mean[i] + blend.peak_share * (highest[i] - mean[i]) - blend.reference;
+    out[i] = mean[i] == kNoHeight ? kNoHeight : height;
+  }
+}
+
 void fill_nearest(HeightWindow& window, const Image<float>& heights, bool tiles, float reference) {
   const std::vector<int> rows = block_sources(window.first_row, window.height, 0, heights.height, tiles);
   const std::vector<ColumnRun> runs =
@@ -85,6 +101,27 @@ void fill_nearest(HeightWindow& window, const Image<float>& heights, bool tiles,
         copy_heights(&heights(row, run.map_column), run.count, reference, out);
       }
       out += run.count;
+    }
+  }
+}
+
+/// The same from what surrounds a window of the map, of samples or of blocks. What lies beyond its margin is
+/// seen from beyond the window alone, where the last tiles of a map may reach, and is left empty.
+void fill_from(const Surroundings& around, const Blend& blend, HeightWindow& window) {
+  const Surroundings::Level& level = around.levels[static_cast<std::size_t>(window.level)];
+  const int top = window.first_row - level.blocks.first_row;
+  const int left = window.first_column - level.blocks.first_column;
+  assert(top >= 0 && left >= 0);
+  const int rows = std::min(window.height, level.blocks.height - top);
+  const int columns = std::min(window.width, level.blocks.width - left);
+  std::fill(window.values.begin(), window.values.end(), kNoHeight);
+  for (int i = 0; i < rows; ++i) {
+    float* out = window.values.data() + std::ptrdiff_t{i} * window.width;
+    const float* mean = &level.mean(top + i, left);
+    if (window.level == 0) {
+      copy_heights(mean, columns, blend.reference, out);
+    } else {
+      blend_heights(mean, &level.highest(top + i, left), columns, blend, out);
     }
   }
 }
@@ -107,13 +144,8 @@ void fill_blocks(HeightWindow& window, const HeightMips& mips, const Surface& su
       if (row < 0 || run.map_column < 0) {
         std::fill_n(out, run.count, kNoHeight);
       } else {
-        const float* mean = &blocks.mean(row, run.map_column);
-        const float* highest = &blocks.highest(row, run.map_column);
-#pragma omp simd
-        for (int i = 0; i < run.count; ++i) {
-          const float height = mean[i] + peak_share * (highest[i] - mean[i]) - reference;
-          out[i] = mean[i] == kNoHeight ? kNoHeight : height;
-        }
+        blend_heights(&blocks.mean(row, run.map_column), &blocks.highest(row, run.map_column), run.count,
+                      {peak_share, reference}, out);
       }
       out += run.count;
     }
@@ -152,6 +184,9 @@ TileFrame TileGrid::frame(std::int64_t i) const {
 
 void ReceiverTile::load_receivers(const Surface& surface, float reference, const TileFrame& frame) {
   static_cast<TileFrame&>(*this) = frame;
+  const WindowPlace place = place_in_map(surface);
+  map_row = frame.first_row + place.first_row;
+  map_column = frame.first_column + place.first_column;
   const Image<float>& map = surface.map.height;
   for (int i = 0; i < kSide; ++i) {
     for (int j = 0; j < kSide; ++j) {
@@ -188,13 +223,22 @@ void WalkTile::load(const Surface& surface, const HeightMips& mips, const WalkOp
   groups = span_groups(*this, kGroup);
   wide_groups = span_groups(*this, kWideGroup);
   windows.resize(static_cast<std::size_t>(rings) + 1);
-  place(windows[0], 0, near_reach(options), row, column);
-  fill_nearest(windows[0], mips.level_0(surface), surface.tiles(), reference);
+  const Surroundings* around = surface.around.get();
+  place(windows[0], 0, near_reach(options), map_row, map_column);
+  if (around) {
+    fill_from(*around, {options.peak_share, reference}, windows[0]);
+  } else {
+    fill_nearest(windows[0], mips.level_0(surface), surface.tiles(), reference);
+  }
   lift(windows[0], lifted);
   for (int ring = 1; ring <= rings; ++ring) {
     HeightWindow& window = windows[static_cast<std::size_t>(ring)];
-    place(window, ring_level(ring), 4 * options.fineness + 1, row, column);
-    fill_blocks(window, mips, surface, options.peak_share, reference);
+    place(window, ring_level(ring), 4 * options.fineness + 1, map_row, map_column);
+    if (around) {
+      fill_from(*around, {options.peak_share, reference}, window);
+    } else {
+      fill_blocks(window, mips, surface, options.peak_share, reference);
+    }
   }
 }
 

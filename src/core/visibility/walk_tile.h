@@ -70,6 +70,8 @@ struct TileGrid {
 struct ReceiverTile : TileFrame {
   static constexpr int kTexels = kSide * kSide;
 
+  int map_row = 0;  ///< of its corner, in the map: not first_row in windows of a larger map alone
+  int map_column = 0;
   alignas(64) std::array<float, kTexels> height;  ///< above a reference; −kNoHeight where missing, which sees
                                                   ///< nothing
   alignas(64) std::array<float, kTexels> slope_x;  ///< of the plane that the normal stands on, per world unit
