@@ -22,7 +22,6 @@ constexpr int kRows = 8;
 constexpr int kColumns = 16;
 constexpr std::size_t kBlocksPerStrip = 1;
 constexpr std::size_t kExactPerBlock = 5;
-constexpr std::uint64_t kClassesSeed = 1;
 
 /// Strips of a map of that size: bricks and joints take turns, and the larger the map the fewer of them a
 /// strip meets. What the pilot costs grows with the map's side, what it plans with the square.
@@ -292,7 +291,7 @@ HorizonPilot::Sparse HorizonPilot::find_sparse(const WalkOptions& options, doubl
 }
 
 void HorizonPilot::see_classes(const Map& sky, double albedo) {
-  const SkyClasses classes(surface_, sky.values, kClassesSeed);
+  const SkyClasses classes(surface_, sky.values, kSkyClassesSeed);
   const auto albedo_of = [albedo](std::size_t) { return albedo; };
   const auto sky_of = [&sky](std::size_t i) { return double{sky.values[i]}; };
   seen_.clear();

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "heightlight/transport.h"
+#include "transport/gather_course.h"
 #include "transport/map_gather.h"
 
 namespace heightlight {
@@ -47,10 +48,6 @@ struct ProgressiveGoal {
 /// The albedo up to which a plan's error is meant.
 constexpr double kPlanAlbedo = 0.8;
 
-/// λ of the azimuths walked before, by what they are together: what the steps between gathers bring is known
-/// from few azimuths. (On bricks 0.3 is as good, 1 half as good again.)
-constexpr double kFading = 0.6;
-
 /// The closed form that gathers start from, E/π of a place with the sky view factor A.
 double guess_total(double sky, double albedo);
 
@@ -59,8 +56,8 @@ double guess_total(double sky, double albedo);
 /// even.
 double unevenness(const LightSystem& system, const Map& sky, const Surface& surface);
 
-/// Azimuths of a gather when so many are left, itself among them.
-int gather_azimuths(int left, int last_azimuths);
+/// Azimuths of the last two gathers of a field that is so uneven.
+int azimuths_for_unevenness(double found, const ProgressiveGoal& goal);
 
 /// Each system's solution is the same, to the last bit, whatever others are solved beside it.
 ProgressiveSolution gather_progressively(const MapGather& gather, const Map& sky,

@@ -11,16 +11,19 @@ std::size_t SkyClasses::of(double sky) const {
   return static_cast<std::size_t>(std::upper_bound(bounds_.begin(), bounds_.end(), sky) - bounds_.begin());
 }
 
-std::vector<std::size_t> SkyClasses::sample_receivers(const Surface& surface, std::uint64_t seed) {
+std::vector<std::size_t> SkyClasses::sample_texels(std::int64_t texels, std::uint64_t seed) {
   constexpr std::int64_t kSample = 4096;
-  const auto texels = static_cast<std::int64_t>(surface.map.height.size());
   const std::int64_t count = std::min(kSample, texels);
-  std::vector<std::size_t> receivers;
-  for (std::int64_t i = 0; i < count; ++i) {
-    const std::size_t texel = pick_texel(i, count, texels, seed);
-    if (!std::isnan(surface.map.height.values[texel])) receivers.push_back(texel);
-  }
-  return receivers;
+  std::vector<std::size_t> sample;
+  for (std::int64_t i = 0; i < count; ++i) sample.push_back(pick_texel(i, count, texels, seed));
+  return sample;
+}
+
+std::vector<std::size_t> SkyClasses::sample_receivers(const Surface& surface, std::uint64_t seed) {
+  const Image<float>& heights = surface.map.height;
+  std::vector<std::size_t> sample = sample_texels(static_cast<std::int64_t>(heights.size()), seed);
+  std::erase_if(sample, [&](std::size_t texel) { return std::isnan(heights.values[texel]); });
+  return sample;
 }
 
 void SkyClasses::set_bounds(std::vector<double> sample) {

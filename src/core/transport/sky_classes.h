@@ -9,6 +9,9 @@
 
 namespace heightlight {
 
+/// Of the sample that classes are made by, but for checks, whose sample is their own.
+constexpr std::uint64_t kSkyClassesSeed = 1;
+
 /// Classes of receivers by A, about as many in each. What is wrong with a total depends on A more than on
 /// anything else: means over a class keep it, and lose the noise of few azimuths.
 class SkyClasses {
@@ -26,7 +29,13 @@ class SkyClasses {
     set_bounds(std::move(sample));
   }
 
+  /// By A of a sample of the receivers, in any order.
+  explicit SkyClasses(std::vector<double> sample) { set_bounds(std::move(sample)); }
+
   std::size_t of(double sky) const;
+
+  /// Texels of a map of so many, of which those that are present are the sample.
+  static std::vector<std::size_t> sample_texels(std::int64_t texels, std::uint64_t seed);
 
  private:
   static std::vector<std::size_t> sample_receivers(const Surface& surface, std::uint64_t seed);
