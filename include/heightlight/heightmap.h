@@ -52,6 +52,10 @@ constexpr double kUsualRefraction = 0.13;
 /// [0, 1).
 Heightmap curve_heights(Heightmap map, double refraction = kUsualRefraction);
 
+/// Sets how a map is to be lowered, about its middle, and lowers nothing yet: the first half of
+/// curve_heights, for maps whose heights are elsewhere. Throws as that does.
+void begin_curving(Heightmap& map, double refraction);
+
 /// κ r² at a sample: by how much a curved map lowered its height.
 double curvature_drop(const Heightmap& map, int row, int column);
 

@@ -89,14 +89,19 @@ Json describe_energy(const Evidence& evidence) {
 
 Json describe_map(const std::filesystem::path& path, const std::string& sha256, const Surface& surface) {
   const Heightmap& map = surface.map;
+  return describe_map(path, sha256, map, {.relief = relief(map), .missing = count_missing(map)});
+}
+
+Json describe_map(const std::filesystem::path& path, const std::string& sha256, const Heightmap& map,
+                  const MapMeasures& measures) {
   Json json = {{"path", path.string()},
                {"sha256", sha256},
                {"width", map.height.width},
                {"height", map.height.height},
                {"texel", {map.spacing.x, map.spacing.y}},
-               {"relief", relief(map)},
+               {"relief", measures.relief},
                {"boundary", to_string(map.boundary)},
-               {"missing", count_missing(map)}};
+               {"missing", measures.missing}};
   if (map.curvature != 0) json["lowered_by"] = {{"times_squared_distance", map.curvature}};
   return json;
 }

@@ -14,7 +14,18 @@
 
 namespace heightlight {
 
-/// A file's map as it was understood: path, sha256, width, height, texel, relief, boundary, missing.
+/// What is found by looking at all heights.
+struct MapMeasures {
+  double relief = 0;
+  std::uint64_t missing = 0;
+};
+
+/// A file's map as it was understood: path, sha256, width, height, texel, relief, boundary, missing. Of
+/// `header` the heights' size counts.
+nlohmann::ordered_json describe_map(const std::filesystem::path& path, const std::string& sha256,
+                                    const Heightmap& header, const MapMeasures& measures);
+
+/// The same of a map whose heights are there.
 nlohmann::ordered_json describe_map(const std::filesystem::path& path, const std::string& sha256,
                                     const Surface& surface);
 

@@ -2,6 +2,7 @@
 
 #include <OpenImageIO/imageio.h>
 
+#include <algorithm>
 #include <array>
 #include <memory>
 
@@ -107,7 +108,61 @@ void turn_back_white_is_zero(StoredImage& image) {
   }
 }
 
+/// What the header of an image tells; its samples are to be read as `kept`.
+StoredImage describe_image(const OIIO::ImageSpec& spec, const StoredType& type, StoredImage image) {
+  image.width = spec.width;
+  image.height = spec.height;
+  image.sample_type = type.name;
+  image.bits = spec.get_int_attribute("oiio:BitsPerSample", static_cast<int>(spec.format.size()) * 8);
+  image.is_integer = !spec.format.is_floating_point();
+  image.channels = spec.channelnames;
+  return image;
+}
+
 }  // namespace
+
+struct TiffRows::Library {
+  std::unique_ptr<OIIO::ImageInput> input;
+  OIIO::ImageSpec spec;
+  const StoredType* type = nullptr;
+};
+
+TiffRows::TiffRows(const InputFile& file) : file_(file), library_(std::make_unique<Library>()) {
+  check_before_opening(file, FileFormat::tiff, header_);
+  library_->input = open_image(file, FileFormat::tiff, library_->spec);
+  library_->type = &find_stored_type(file, library_->spec);
+  header_ = describe_image(library_->spec, *library_->type, std::move(header_));
+  check_tiff_layout(file, library_->spec, header_.bits);
+  check_tiff_blocks(file);
+}
+
+TiffRows::~TiffRows() = default;
+
+int TiffRows::together() const {
+  const int strip = library_->spec.get_int_attribute("tiff:RowsPerStrip", 1);
+  return library_->spec.tile_height > 0 ? library_->spec.tile_height : std::clamp(strip, 1, 256);
+}
+
+StoredImage TiffRows::read(int first, int count) {
+  const OIIO::ImageSpec& spec = library_->spec;
+  StoredImage rows = header_;
+  rows.height = count;
+  rows.samples = library_->type->make(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(count) *
+                                      static_cast<std::size_t>(spec.nchannels));
+  const OIIO::TypeDesc kept(library_->type->kept);
+  const bool read = std::visit(
+      [&](auto& samples) {
+        return spec.tile_width > 0 ? library_->input->read_tiles(0, 0, 0, spec.width, first, first + count, 0,
+                                                                 1, 0, spec.nchannels, kept, samples.data())
+                                   : library_->input->read_scanlines(0, 0, first, first + count, 0, 0,
+                                                                     spec.nchannels, kept, samples.data());
+      },
+      rows.samples);
+  if (!read || library_->input->has_error())
+    throw file_.error("is damaged or truncated: " + file_.explain(library_->input->geterror()));
+  turn_back_white_is_zero(rows);
+  return rows;
+}
 
 StoredImage read_image(const InputFile& file, FileFormat format, std::uint64_t memory_limit,
                        const std::optional<std::string>& part) {
@@ -127,12 +182,7 @@ StoredImage read_image(const InputFile& file, FileFormat format, std::uint64_t m
   check_map_size(file.path(), static_cast<std::uint64_t>(spec.width), static_cast<std::uint64_t>(spec.height),
                  bytes_per_texel(channels * kept.size()), memory_limit);
 
-  image.width = spec.width;
-  image.height = spec.height;
-  image.sample_type = type.name;
-  image.bits = spec.get_int_attribute("oiio:BitsPerSample", static_cast<int>(spec.format.size()) * 8);
-  image.is_integer = !spec.format.is_floating_point();
-  image.channels = spec.channelnames;
+  image = describe_image(spec, type, std::move(image));
   if (format == FileFormat::tiff) {
     check_tiff_layout(file, spec, image.bits);
     check_tiff_blocks(file);

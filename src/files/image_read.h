@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -38,6 +39,34 @@ struct StoredImage {
 /// several parts without `part`, UsageError for a `part` that it does not have.
 StoredImage read_image(const InputFile& file, FileFormat format, std::uint64_t memory_limit,
                        const std::optional<std::string>& part = {});
+
+/// The rows of a TIFF, for images that memory need not hold as a whole.
+class TiffRows {
+ public:
+  /// Reads the header, and looks at every block (check_tiff_blocks). `file` must outlive it. Throws as
+  /// read_image does.
+  explicit TiffRows(const InputFile& file);
+  ~TiffRows();
+  TiffRows(const TiffRows&) = delete;
+  TiffRows& operator=(const TiffRows&) = delete;
+
+  /// The image, without samples.
+  const StoredImage& header() const { return header_; }
+
+  /// Rows that one look at the file gives: reading should begin at multiples of these.
+  int together() const;
+
+  /// Rows [first, first + count), as an image of their own. Where the file has tiles, `first` is a multiple
+  /// of together(), and so is `count`, but at the end. Throws Error naming a damaged file.
+  StoredImage read(int first, int count);
+
+ private:
+  struct Library;
+
+  const InputFile& file_;
+  StoredImage header_;
+  std::unique_ptr<Library> library_;
+};
 
 /// Part of read_image: PNG, through libpng.
 StoredImage read_png(const InputFile& file, std::uint64_t memory_limit);

@@ -10,6 +10,7 @@
 #include "files/geotiff_place.h"
 #include "files/ground_spacing.h"
 #include "files/image_file.h"
+#include "files/load_by_rows.h"
 #include "files/no_data.h"
 #include "files/stored_heights.h"
 #include "files/suspects.h"
@@ -70,24 +71,55 @@ Spacing choose_spacing(const InputFile& file, const LoadOptions& options, Stored
   return cell;
 }
 
-/// Heights above the lowest sample, `scale` of them to a stored value.
-Image<float> to_heights(const InputFile& file, const StoredHeights& stored, double scale, bool invert) {
-  const double span = stored.facts.highest - stored.facts.lowest;
-  if (!(span * scale <= static_cast<double>(std::numeric_limits<float>::max())))
-    throw file.error("its heights span more than single precision can hold");
-  Image<float> heights(stored.values.width, stored.values.height);
-  for (std::size_t i = 0; i < heights.size(); ++i) {
-    const double value = stored.values.values[i];
-    const double above = invert ? stored.facts.highest - value : value - stored.facts.lowest;
-    heights.values[i] = static_cast<float>(above * scale);
+/// How stored values become heights above the lowest of them.
+struct HeightRule {
+  double scale = 1;  ///< height per stored value
+  bool invert = false;
+  double lowest = 0;  ///< stored values
+  double highest = 0;
+  bool is_stretched = false;  ///< to a relief that is not the file's own
+
+  float operator()(double value) const {
+    return static_cast<float>((invert ? highest - value : value - lowest) * scale);
   }
+  double relief() const { return (highest - lowest) * scale; }
+};
+
+/// `map` has its spacing.
+HeightRule height_rule(const InputFile& file, const LoadOptions& options, const StoredHeights& stored,
+                       const Heightmap& map) {
+  std::optional<double> relief = options.relief;
+  const double width = map.spacing.x * stored.values.width;
+  if (options.relief_share) relief = *options.relief_share * width;
+  if (!relief && stored.facts.is_stretched) relief = width / 10;
+  const double span = stored.facts.highest - stored.facts.lowest;
+  const HeightRule rule{.scale = relief && span > 0 ? *relief / span : options.scale.value_or(stored.scale),
+                        .invert = options.invert != stored.facts.white_is_zero,
+                        .lowest = stored.facts.lowest,
+                        .highest = stored.facts.highest,
+                        .is_stretched = relief.has_value()};
+  if (!(rule.relief() <= static_cast<double>(std::numeric_limits<float>::max())))
+    throw file.error("its heights span more than single precision can hold");
+  return rule;
+}
+
+/// Where the lowest height is in the world.
+double base_of(const HeightRule& rule, const LoadOptions& options, const StoredHeights& stored) {
+  if (rule.is_stretched) return 0;
+  return (rule.invert ? -rule.highest : rule.lowest) * rule.scale + options.offset.value_or(stored.offset);
+}
+
+Image<float> to_heights(const Image<double>& values, const HeightRule& rule) {
+  Image<float> heights(values.width, values.height);
+  for (std::size_t i = 0; i < heights.size(); ++i) heights.values[i] = rule(values.values[i]);
   return heights;
 }
 
 /// Beyond single precision's squares nothing can be computed; `suspects` may tell why.
-void check_slopes(const InputFile& file, const Heightmap& map, const std::vector<Warning>& suspects) {
+void check_slopes(const InputFile& file, double relief, const Spacing& spacing,
+                  const std::vector<Warning>& suspects) {
   constexpr double kSteepest = 1e12;
-  if (relief(map) <= kSteepest * std::min(map.spacing.x, map.spacing.y)) return;
+  if (relief <= kSteepest * std::min(spacing.x, spacing.y)) return;
   if (suspects.empty()) throw file.error("its slopes exceed 1e12; is the spacing right?", "texel");
   throw file.error(suspects[0].message + "; slopes would exceed 1e12", suspects[0].remedy);
 }
@@ -128,19 +160,11 @@ LoadedHeightmap load_heightmap(const std::filesystem::path& path, const LoadOpti
   judge_place(stored);
   map.spacing = choose_spacing(file, options, stored);
   map.boundary = options.boundary.value_or(stored.place ? Boundary::open : Boundary::tile);
-  std::optional<double> relief = options.relief;
-  const double width = map.spacing.x * stored.values.width;
-  if (options.relief_share) relief = *options.relief_share * width;
-  if (!relief && stored.facts.is_stretched) relief = width / 10;
-  const bool invert = options.invert != stored.facts.white_is_zero;
-  const double span = stored.facts.highest - stored.facts.lowest;
-  const double scale = relief && span > 0 ? *relief / span : options.scale.value_or(stored.scale);
-  map.height = to_heights(file, stored, scale, invert);
+  const HeightRule rule = height_rule(file, options, stored, map);
+  map.height = to_heights(stored.values, rule);
   loaded.warnings = find_suspects(stored);
-  check_slopes(file, map, loaded.warnings);
-  if (!relief)
-    map.base = (invert ? -stored.facts.highest : stored.facts.lowest) * scale +
-               options.offset.value_or(stored.offset);
+  check_slopes(file, relief(map), map.spacing, loaded.warnings);
+  map.base = base_of(rule, options, stored);
   if (options.shrink != 1) map = shrink(map, options.shrink);
   if (stored.place) {
     loaded.place = shrink_place(*stored.place, options.shrink);
@@ -150,6 +174,69 @@ LoadedHeightmap load_heightmap(const std::filesystem::path& path, const LoadOpti
   for (const std::vector<Warning>& more : {find_doubts(map, stored, options), stored.warnings})
     loaded.warnings.insert(loaded.warnings.end(), more.begin(), more.end());
   if (options.curvature) map = curve_heights(std::move(map), *options.curvature);
+  loaded.facts = std::move(stored.facts);
+  loaded.facts.sha256 = sha256_of_file(file);
+  file.check_unchanged();
+  return loaded;
+}
+
+namespace {
+
+/// By how much the Earth's curvature lowers the lowest height.
+double lowest_when_curved(StoredHeightRows& rows, const HeightRule& rule, const Heightmap& map) {
+  double lowest = std::numeric_limits<double>::infinity();
+  rows.for_rows([&](int first, const Image<double>& values) {
+    for (int row = 0; row < values.height; ++row) {
+      for (int column = 0; column < values.width; ++column) {
+        const double height = double{rule(values(row, column))} - curvature_drop(map, first + row, column);
+        if (height < lowest) lowest = height;
+      }
+    }
+  });
+  return lowest;
+}
+
+}  // namespace
+
+LoadedHeightmap load_heightmap_by_rows(const std::filesystem::path& path, const LoadOptions& options,
+                                       const TakeRows& take) {
+  check_load_options(options);
+  if (options.shrink != 1) throw UsageError("shrink", "", "is not for maps that are read in parts");
+  const InputFile file(path);
+  StoredHeightRows rows(file, options);
+  StoredHeights& stored = rows.stored();
+  LoadedHeightmap loaded;
+  Heightmap& map = loaded.map;
+  check_place(file, options, stored);
+  judge_place(stored);
+  map.spacing = choose_spacing(file, options, stored);
+  map.boundary = options.boundary.value_or(stored.place ? Boundary::open : Boundary::tile);
+  map.height.width = stored.values.width;
+  map.height.height = stored.values.height;
+  const HeightRule rule = height_rule(file, options, stored, map);
+  check_slopes(file, rule.relief(), map.spacing, {});
+  map.base = base_of(rule, options, stored);
+  double lowest = 0;
+  if (options.curvature) {
+    begin_curving(map, *options.curvature);
+    lowest = lowest_when_curved(rows, rule, map);
+    map.base += lowest;
+  }
+  rows.for_rows([&](int first, const Image<double>& values) {
+    Map heights = to_heights(values, rule);
+    for (int row = 0; options.curvature && row < heights.height; ++row) {
+      for (int column = 0; column < heights.width; ++column) {
+        float& height = heights(row, column);
+        height = static_cast<float>(double{height} - curvature_drop(map, first + row, column) - lowest);
+      }
+    }
+    take(map, first, heights);
+  });
+  if (stored.place) {
+    loaded.place = stored.place;
+    note_no_data(options.no_data ? options.no_data : stored.facts.declared_no_data, *loaded.place);
+  }
+  loaded.warnings = stored.warnings;
   loaded.facts = std::move(stored.facts);
   loaded.facts.sha256 = sha256_of_file(file);
   file.check_unchanged();

@@ -10,6 +10,7 @@
 #include "files/esri_grid.h"
 #include "files/geo_keys.h"
 #include "files/image_read.h"
+#include "files/interrupt.h"
 #include "files/level_count.h"
 #include "files/named.h"
 #include "files/no_data.h"
@@ -110,16 +111,10 @@ void take_metadata(const InputFile& file, const LoadOptions& options, StoredHeig
       {fmt::format("heights are {:g} times its samples, plus {:g}, as it says", scale, offset)});
 }
 
-StoredHeights read_picture(const InputFile& file, FileFormat format, const LoadOptions& options,
-                           std::uint64_t memory_limit) {
-  const StoredImage image = read_image(file, format, memory_limit, options.part);
+/// All but the samples of an image and the name of the channel that they are.
+StoredHeights describe_heights(const InputFile& file, const StoredImage& image, const LoadOptions& options) {
   StoredHeights stored;
-  ChannelSamples channel = pick_channel(file, image, options.channel);
-  stored.values = std::move(channel.values);
-  for (const std::vector<std::string>& warnings : {image.warnings, channel.warnings}) {
-    for (const std::string& warning : warnings) stored.warnings.push_back({warning});
-  }
-  stored.facts.channel = channel.name;
+  for (const std::string& warning : image.warnings) stored.warnings.push_back({warning});
   stored.facts.channels = static_cast<int>(image.channels.size());
   stored.facts.sample_type = image.sample_type;
   stored.facts.bits = image.bits;
@@ -132,6 +127,20 @@ StoredHeights read_picture(const InputFile& file, FileFormat format, const LoadO
   take_no_data_tag(stored);
   take_metadata(file, options, stored);
   stored.facts.white_is_zero = image.is_integer && image.tiff->white_is_zero;
+  return stored;
+}
+
+StoredHeights read_picture(const InputFile& file, FileFormat format, const LoadOptions& options,
+                           std::uint64_t memory_limit) {
+  const StoredImage image = read_image(file, format, memory_limit, options.part);
+  ChannelSamples channel = pick_channel(file, image, options.channel);
+  StoredHeights stored = describe_heights(file, image, options);
+  const auto after_own = stored.warnings.begin() + static_cast<std::ptrdiff_t>(image.warnings.size());
+  std::vector<Warning> of_channel;
+  for (const std::string& warning : channel.warnings) of_channel.push_back({warning});
+  stored.warnings.insert(after_own, of_channel.begin(), of_channel.end());
+  stored.values = std::move(channel.values);
+  stored.facts.channel = channel.name;
   return stored;
 }
 
@@ -148,16 +157,9 @@ void assume_esri_default(StoredHeights& stored) {
        " samples are -9999, which means missing where the header names no other value"});
 }
 
-/// Makes NaN of what is missing, and notes range and levels of the rest.
-void drop_missing(const InputFile& file, const std::optional<double>& no_data, StoredHeights& stored) {
-  SourceFacts& facts = stored.facts;
-  for (const std::optional<double>& value : {no_data, facts.declared_no_data}) {
-    if (value) drop_no_data(*value, facts.sample_type, stored.values);
-  }
-  assume_esri_default(stored);
-  facts.lowest = std::numeric_limits<double>::infinity();
-  facts.highest = -facts.lowest;
-  for (double& value : stored.values.values) {
+/// Makes NaN of samples that are no numbers, and widens the range by the rest.
+void note_range(Image<double>& values, SourceFacts& facts) {
+  for (double& value : values.values) {
     if (!std::isfinite(value)) {
       value = std::numeric_limits<double>::quiet_NaN();
     } else {
@@ -165,6 +167,26 @@ void drop_missing(const InputFile& file, const std::optional<double>& no_data, S
       facts.highest = std::max(facts.highest, value);
     }
   }
+}
+
+void drop_named(const std::optional<double>& no_data, const SourceFacts& facts, Image<double>& values) {
+  for (const std::optional<double>& value : {no_data, facts.declared_no_data}) {
+    if (value) drop_no_data(*value, facts.sample_type, values);
+  }
+}
+
+void empty_range(SourceFacts& facts) {
+  facts.lowest = std::numeric_limits<double>::infinity();
+  facts.highest = -facts.lowest;
+}
+
+/// Makes NaN of what is missing, and notes range and levels of the rest.
+void drop_missing(const InputFile& file, const std::optional<double>& no_data, StoredHeights& stored) {
+  SourceFacts& facts = stored.facts;
+  drop_named(no_data, facts, stored.values);
+  assume_esri_default(stored);
+  empty_range(facts);
+  note_range(stored.values, facts);
   if (facts.lowest > facts.highest) throw file.error("all its samples are missing (no-data)");
   const Levels levels = count_levels(stored.values);
   facts.levels = levels.count;
@@ -185,6 +207,41 @@ StoredHeights read_stored_heights(const InputFile& file, const LoadOptions& opti
   if (options.scale || options.offset) stored.facts.is_stretched = false;
   drop_missing(file, options.no_data, stored);
   return stored;
+}
+
+StoredHeightRows::StoredHeightRows(const InputFile& file, const LoadOptions& options)
+    : file_(file), options_(options), rows_(file), stored_(describe_heights(file, rows_.header(), options)) {
+  const std::vector<std::string>& channels = rows_.header().channels;
+  if (options.part) throw UsageError(file.path().string() + ": has no parts; only EXR files have");
+  if (!options.channel && channels.size() > 1)
+    throw file.error("has " + std::to_string(channels.size()) + " channels: " + join_names(channels) +
+                         "; read in parts, it wants one to be chosen",
+                     "channel");
+  stored_.facts.format = to_string(FileFormat::tiff);
+  stored_.facts.channel =
+      channels[options.channel ? find_named("channel", file, channels, *options.channel) : 0];
+  if (options.scale || options.offset) stored_.facts.is_stretched = false;
+  stored_.values.width = rows_.header().width;
+  stored_.values.height = rows_.header().height;
+  empty_range(stored_.facts);
+  for_rows([this](int, Image<double>& values) { note_range(values, stored_.facts); });
+  if (stored_.facts.lowest > stored_.facts.highest) throw file.error("all its samples are missing (no-data)");
+}
+
+void StoredHeightRows::for_rows(const std::function<void(int, Image<double>&)>& visit) {
+  constexpr int kAtOnce = 256;
+  const int together = rows_.together();
+  const int count = (kAtOnce + together - 1) / together * together;
+  for (int first = 0; first < stored_.values.height; first += count) {
+    throw_if_interrupted();
+    const StoredImage part = rows_.read(first, std::min(count, stored_.values.height - first));
+    ChannelSamples channel = pick_channel(file_, part, options_.channel);
+    drop_named(options_.no_data, stored_.facts, channel.values);
+    for (double& value : channel.values.values) {
+      if (!std::isfinite(value)) value = std::numeric_limits<double>::quiet_NaN();
+    }
+    visit(first, channel.values);
+  }
 }
 
 }  // namespace heightlight

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 
+#include "files/image_read.h"
 #include "files/input_file.h"
 #include "files/tiff_facts.h"
 #include "heightlight/files.h"
@@ -26,5 +28,26 @@ struct StoredHeights {
 /// channel that the file does not have.
 StoredHeights read_stored_heights(const InputFile& file, const LoadOptions& options,
                                   std::uint64_t memory_limit);
+
+/// The same of a TIFF, some rows at a time: what memory need not hold as a whole.
+class StoredHeightRows {
+ public:
+  /// Reads all rows once, for their range. Throws Error likewise, and for an image of several channels where
+  /// none is chosen. Both arguments must outlive it.
+  StoredHeightRows(const InputFile& file, const LoadOptions& options);
+
+  /// All but the values, which have their size alone, and their levels, which nobody counts.
+  const StoredHeights& stored() const { return stored_; }
+  StoredHeights& stored() { return stored_; }
+
+  /// Calls visit(first row, rows), one part after the other, from the top.
+  void for_rows(const std::function<void(int, Image<double>&)>& visit);
+
+ private:
+  const InputFile& file_;
+  const LoadOptions& options_;
+  TiffRows rows_;
+  StoredHeights stored_;
+};
 
 }  // namespace heightlight

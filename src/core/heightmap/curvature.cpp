@@ -34,7 +34,7 @@ double middle(int count) { return 0.5 * (count - 1); }
 
 }  // namespace
 
-Heightmap curve_heights(Heightmap map, double refraction) {
+void begin_curving(Heightmap& map, double refraction) {
   if (map.boundary == Boundary::tile)
     throw UsageError("curvature", "", "is the Earth's, whose maps do not tile: the boundary must be open");
   if (map.curvature != 0) throw UsageError("curvature", "", "is in these heights already");
@@ -42,9 +42,13 @@ Heightmap curve_heights(Heightmap map, double refraction) {
     throw UsageError("curvature", std::to_string(refraction),
                      "is the coefficient of refraction, at least 0 and less than 1");
   map.curvature = (1 - refraction) / (2 * kEarthRadius);
+  map.curved_about_row = middle(map.height.height);
+  map.curved_about_column = middle(map.height.width);
+}
+
+Heightmap curve_heights(Heightmap map, double refraction) {
+  begin_curving(map, refraction);
   Image<float>& heights = map.height;
-  map.curved_about_row = middle(heights.height);
-  map.curved_about_column = middle(heights.width);
   const auto drop = [&](int row, int column) { return curvature_drop(map, row, column); };
   double lowest = std::numeric_limits<double>::infinity();
   for (int row = 0; row < heights.height; ++row) {

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "heightlight/evidence.h"
 #include "heightlight/surface.h"
 #include "heightlight/watch.h"
+#include "visibility/exact_walk.h"
 
 namespace heightlight {
 
@@ -20,5 +22,27 @@ struct CheckedSky {
 /// `seed` picks the receivers. Nothing where none is present.
 std::optional<SkyCheck> check_sky(const Surface& surface, const CheckedSky& sky, std::uint64_t seed,
                                   const Watch& watch = {});
+
+/// What was found of one receiver.
+struct CheckedReceiver {
+  float ambient_occlusion = 0;
+  float sky_view_factor = 0;
+  SkyMoments moments = {};  ///< maps of one texel, or empty
+};
+
+struct SkyCheckOptions {
+  std::optional<Reach> reach = {};
+  BelowHorizontal below = BelowHorizontal::sky;
+  std::uint64_t seed = 1;
+  Watch watch = {};
+};
+
+/// Azimuths of check_sky's exact walks.
+constexpr int kSkyCheckAzimuths = 256;
+
+/// The same by a walker of one's own, of what was found wherever it is kept; asked from many threads.
+std::optional<SkyCheck> check_receivers_sky(const ExactWalker& walker,
+                                            const std::function<CheckedReceiver(int row, int column)>& found,
+                                            const SkyCheckOptions& options);
 
 }  // namespace heightlight

@@ -32,4 +32,7 @@ std::uint64_t maximum_pyramid_bytes(int cell_columns, int cell_rows);
 /// Needs at least one cell; throws Error when the entries pass 2³¹.
 MaximumPyramid build_maximum_pyramid(const Surface& surface);
 
+/// The levels from `first` on, by that of the blocks of `first`: at least as many as so many cells have.
+MaximumPyramid complete_maximum_pyramid(int first, const Map& blocks, int cell_columns, int cell_rows);
+
 }  // namespace heightlight

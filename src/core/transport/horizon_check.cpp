@@ -1,3 +1,5 @@
+#include "transport/horizon_check.h"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -15,10 +17,6 @@ namespace {
 constexpr std::int64_t kReceivers = 256;
 constexpr int kMostRounds = 3;
 
-/// Azimuths that leave little beside the error wanted: on bricks 128 leave .0001 of A and .0003 of a gather,
-/// 64 twice that and more.
-int azimuths_for_check(double error_wanted) { return error_wanted < 0.004 ? 128 : 64; }
-
 /// How much what is seen errs like who sees it: with this, what is said of bricks, cobbles and fractal ground
 /// is mostly within a fifth of what is true (plots/promise.md). Without, it was a fifth to a half too little.
 constexpr double kAlike = 0.5;
@@ -28,27 +26,28 @@ constexpr double kAlike = 0.5;
 constexpr double kGoodEnough = 0.1;
 constexpr double kClearlyMet = 0.9;
 
+std::int64_t texels_of(const ExactWalker& walker) {
+  return std::int64_t{walker.surface().width()} * walker.surface().height();
+}
+
 struct ReceiverError {
   double ambient = 0;
   double sky = 0;
   std::vector<FoundError> totals = {};  ///< each by itself
 };
 
-/// What is checked, and what all its receivers share.
+/// What all receivers of a check share.
 struct Check {
   const ExactWalker& walker;
-  const TexelVector& sky;
-  const std::vector<CheckedTotal>& totals;
-  const Map* ambient;
+  const FoundMaps& found;
   bool above_horizontal;
   SkyClasses classes;
 };
 
 /// E₀/π of a total at a receiver.
-double direct_light(const Check& check, const CheckedTotal& checked, const SliceView& view,
-                    std::size_t texel) {
+double direct_light(const Check& check, const FoundTotal& checked, const SliceView& view, std::size_t texel) {
   if (!checked.direct) return view.sky_view_factor;
-  if (!check.above_horizontal) return (*checked.direct)[texel];
+  if (!check.above_horizontal) return checked.direct(texel);
   const auto width = static_cast<std::size_t>(check.walker.surface().width());
   return sky_above_horizontal(check.walker, static_cast<int>(texel / width), static_cast<int>(texel % width),
                               view);
@@ -56,19 +55,17 @@ double direct_light(const Check& check, const CheckedTotal& checked, const Slice
 
 ReceiverError find_error(const Check& check, const SliceView& view, std::size_t texel) {
   const Surface& surface = check.walker.surface();
-  ReceiverError error{.sky = check.sky[texel] - view.sky_view_factor};
-  if (check.ambient) error.ambient = double{check.ambient->values[texel]} - view.ambient_occlusion;
-  const auto sky = [&check](std::size_t i) { return check.sky[i]; };
-  for (const CheckedTotal& checked : check.totals) {
-    const auto albedo = [&checked](std::size_t i) {
-      return checked.varying ? (*checked.varying)[i] : checked.albedo;
-    };
-    const auto radiosity = [&](std::size_t i) { return albedo(i) * checked.total[i]; };
+  const FoundMaps& found = check.found;
+  const double share = found.sky(texel);
+  ReceiverError error{.sky = share - view.sky_view_factor};
+  if (found.ambient) error.ambient = found.ambient(texel) - view.ambient_occlusion;
+  for (const FoundTotal& checked : found.totals) {
+    const auto radiosity = [&](std::size_t i) { return checked.albedo(i) * checked.total(i); };
     const double gathered = gather_exactly(view, surface, radiosity);
     const double direct = direct_light(check, checked, view, texel);
-    error.totals.push_back({.residual = checked.total[texel] - direct - gathered,
-                            .own_class = check.classes.of(check.sky[texel]),
-                            .seen = seen_by_class(view, surface, check.classes, albedo, sky)});
+    error.totals.push_back({.residual = checked.total(texel) - direct - gathered,
+                            .own_class = check.classes.of(share),
+                            .seen = seen_by_class(view, surface, check.classes, checked.albedo, found.sky)});
   }
   return error;
 }
@@ -108,7 +105,7 @@ bool is_good_enough(const HorizonCheck& check, double error_wanted) {
 /// Walks from `count` more receivers.
 void add_receivers(const Check& check, std::uint64_t seed, const Watch& watch,
                    std::vector<ReceiverError>& errors) {
-  const auto texels = static_cast<std::int64_t>(check.sky.size());
+  const std::int64_t texels = texels_of(check.walker);
   const std::int64_t count = std::min(kReceivers, texels);
   std::vector<std::optional<ReceiverError>> found(static_cast<std::size_t>(count));
   Progress progress("check of the total", count, watch);
@@ -130,31 +127,53 @@ void add_receivers(const Check& check, std::uint64_t seed, const Watch& watch,
 
 }  // namespace
 
-std::vector<HorizonCheck> check_by_exact_walks(const Surface& surface, const TexelVector& sky,
-                                               const std::vector<CheckedTotal>& totals,
-                                               const CheckOptions& options) {
-  const ExactWalker walker(surface, azimuths_for_check(options.error));
+int azimuths_for_check(double error_wanted) { return error_wanted < 0.004 ? 128 : 64; }
+
+std::vector<HorizonCheck> check_found(const ExactWalker& walker, const FoundMaps& found,
+                                      std::vector<double> class_sample, const CheckOptions& options) {
   const Check check{.walker = walker,
-                    .sky = sky,
-                    .totals = totals,
-                    .ambient = options.ambient_occlusion,
+                    .found = found,
                     .above_horizontal = options.above_horizontal,
-                    .classes = {surface, sky, options.seed + 5}};
+                    .classes = SkyClasses(std::move(class_sample))};
   std::vector<ReceiverError> errors;
-  std::vector<HorizonCheck> checks(totals.size());
-  std::vector<bool> good(totals.size());  // a figure stays that is good enough, whatever the others want
+  std::vector<HorizonCheck> checks(found.totals.size());
+  std::vector<bool> good(
+      found.totals.size());  // a figure stays that is good enough, whatever the others want
   for (int round = 0; round < kMostRounds; ++round) {
     const std::uint64_t seed = hash_combine(options.seed + 2, static_cast<std::uint64_t>(round));
     add_receivers(check, seed, options.watch, errors);
-    for (std::size_t t = 0; t < totals.size(); ++t) {
+    for (std::size_t t = 0; t < found.totals.size(); ++t) {
       if (good[t]) continue;
       checks[t] = sum_up(errors, t, walker.azimuths());
       good[t] = is_good_enough(checks[t], options.error);
     }
     const bool all_good = std::find(good.begin(), good.end(), false) == good.end();
-    if (all_good || errors.empty() || sky.size() <= kReceivers) break;
+    if (all_good || errors.empty() || texels_of(walker) <= kReceivers) break;
   }
   return checks;
+}
+
+std::vector<HorizonCheck> check_by_exact_walks(const Surface& surface, const TexelVector& sky,
+                                               const std::vector<CheckedTotal>& totals,
+                                               const CheckOptions& options) {
+  const ExactWalker walker(surface, azimuths_for_check(options.error));
+  FoundMaps found{.sky = [&sky](std::size_t i) { return sky[i]; }};
+  if (options.ambient_occlusion) {
+    const Map& ambient = *options.ambient_occlusion;
+    found.ambient = [&ambient](std::size_t i) { return double{ambient.values[i]}; };
+  }
+  for (const CheckedTotal& checked : totals) {
+    FoundTotal& total = found.totals.emplace_back();
+    total.total = [&checked](std::size_t i) { return checked.total[i]; };
+    total.albedo = [&checked](std::size_t i) {
+      return checked.varying ? (*checked.varying)[i] : checked.albedo;
+    };
+    if (checked.direct) total.direct = [&checked](std::size_t i) { return (*checked.direct)[i]; };
+  }
+  std::vector<double> sample;
+  for (const std::size_t texel : SkyClasses::sample_receivers(surface, options.seed + 5))
+    sample.push_back(sky[texel]);
+  return check_found(walker, found, std::move(sample), options);
 }
 
 }  // namespace heightlight

@@ -36,9 +36,10 @@ class SkyClasses {
 
   /// Texels of a map of so many, of which those that are present are the sample.
   static std::vector<std::size_t> sample_texels(std::int64_t texels, std::uint64_t seed);
+  /// Of a surface, those that are.
+  static std::vector<std::size_t> sample_receivers(const Surface& surface, std::uint64_t seed);
 
  private:
-  static std::vector<std::size_t> sample_receivers(const Surface& surface, std::uint64_t seed);
   void set_bounds(std::vector<double> sample);
 
   std::vector<double> bounds_;

@@ -86,7 +86,7 @@ double open_share(const Reach& reach, double distance) {
 }
 
 double sky_above_horizontal(const ExactWalker& walker, int row, int column, const SliceView& view) {
-  const Eigen::Vector3d normal = as_eigen(walker.surface().normal(row, column)).cast<double>().normalized();
+  const Eigen::Vector3d normal = as_eigen(walker.normal(row, column)).cast<double>().normalized();
   SkyShareSum sky;
   for (int k = 0; k < walker.azimuths(); ++k) {
     const Eigen::Vector2d azimuth(std::cos(walker.azimuth_rad(k)), std::sin(walker.azimuth_rad(k)));
@@ -99,9 +99,8 @@ double sky_above_horizontal(const ExactWalker& walker, int row, int column, cons
 
 ExactSky find_exact_sky(const ExactWalker& walker, int row, int column, const std::optional<Reach>& reach,
                         BelowHorizontal below) {
-  const Surface& surface = walker.surface();
   ExactSky sky;
-  if (std::isnan(surface.map.height(row, column))) {
+  if (std::isnan(walker.height(row, column))) {
     constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
     sky.ambient_occlusion = sky.sky_view_factor = kMissing;
     sky.first.setConstant(kMissing);
@@ -109,7 +108,7 @@ ExactSky find_exact_sky(const ExactWalker& walker, int row, int column, const st
     return sky;
   }
   sky.ambient_occlusion = sky.sky_view_factor = 0;
-  const Eigen::Vector3d normal = as_eigen(surface.normal(row, column)).cast<double>().normalized();
+  const Eigen::Vector3d normal = as_eigen(walker.normal(row, column)).cast<double>().normalized();
   double mass = 0;
   double angle = 0;
   std::vector<VisibleStretch> stretches;

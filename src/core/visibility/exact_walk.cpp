@@ -41,6 +41,18 @@ ExactWalker::ExactWalker(const Surface& surface, int azimuths, double reach)
   grid_ = make_ray_grid(surface, pyramid_);
 }
 
+ExactWalker::ExactWalker(const Surface& header, int azimuths, const StoredGround& ground,
+                         MaximumPyramid bounds, int first_level)
+    : surface_(header),
+      ground_(&ground),
+      pyramid_(std::move(bounds)),
+      azimuths_(azimuths),
+      reach_(std::numeric_limits<double>::infinity()) {
+  grid_ = make_ray_grid(header, pyramid_);
+  grid_.ground = &ground;
+  grid_.first_level = first_level;
+}
+
 double ExactWalker::azimuth_rad(int k) const { return 2 * std::numbers::pi * (k + 0.25) / azimuths_; }
 
 double ExactWalker::walk(int row, int column, const Eigen::Vector2d& azimuth, double least_slope,
@@ -49,7 +61,7 @@ double ExactWalker::walk(int row, int column, const Eigen::Vector2d& azimuth, do
   ProfileLine line;
   line.row = row;
   line.column = column;
-  line.height = double{surface_.map.height(row, column)};
+  line.height = double{height(row, column)};
   line.step_u = azimuth.x() / surface_.map.spacing.x;
   line.step_v = -azimuth.y() / surface_.map.spacing.y;  // rows run down, y up
   line.reach = reach_;
@@ -67,7 +79,7 @@ double ExactWalker::level_slope(int row, int column, const Eigen::Vector2d& azim
 }
 
 double ExactWalker::horizon_rad(int row, int column, double azimuth_rad) const {
-  if (std::isnan(surface_.map.height(row, column))) return kNothingKnown;
+  if (std::isnan(height(row, column))) return kNothingKnown;
   return std::atan(horizon_slope(row, column, unit_azimuth(azimuth_rad)));
 }
 
@@ -75,12 +87,12 @@ void ExactWalker::view(int row, int column, SliceView& view) const {
   view.horizon_rad.clear();
   view.links.clear();
   view.links_end.clear();
-  if (std::isnan(surface_.map.height(row, column))) {
+  if (std::isnan(height(row, column))) {
     view.ambient_occlusion = view.sky_view_factor = kNothingKnown;
     view.bent_normal.setConstant(kNothingKnown);
     return;
   }
-  const Eigen::Vector3d normal = as_eigen(surface_.normal(row, column)).cast<double>().normalized();
+  const Eigen::Vector3d n = as_eigen(normal(row, column)).cast<double>().normalized();
   double hemisphere_mass = 0;
   double hemisphere_angle = 0;
   double sky_mass = 0;
@@ -89,7 +101,7 @@ void ExactWalker::view(int row, int column, SliceView& view) const {
   std::vector<VisibleStretch> stretches;
   for (int k = 0; k < azimuths_; ++k) {
     const Eigen::Vector2d azimuth = unit_azimuth(azimuth_rad(k));
-    const SliceNormal in_slice{normal.head<2>().dot(azimuth), normal.z()};
+    const SliceNormal in_slice{n.head<2>().dot(azimuth), n.z()};
     const double tangent = tangent_slope(in_slice);
     stretches.clear();
     const double horizon = walk(row, column, azimuth, tangent, stretches);

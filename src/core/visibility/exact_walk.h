@@ -61,6 +61,10 @@ class ExactWalker {
  public:
   /// `azimuths` ≥ 1; `reach` > 0: nothing farther away (world units, horizontally) counts.
   ExactWalker(const Surface& surface, int azimuths, double reach = std::numeric_limits<double>::infinity());
+  /// On ground that is not in memory, within bounds of which there is no level below `first_level`. `header`
+  /// has what the surface has, but for samples and normals.
+  ExactWalker(const Surface& header, int azimuths, const StoredGround& ground, MaximumPyramid bounds,
+              int first_level);
   ExactWalker(const ExactWalker&) = delete;  // its grid refers to its pyramid
   ExactWalker& operator=(const ExactWalker&) = delete;
 
@@ -87,10 +91,18 @@ class ExactWalker {
   /// Slope of what is level at the receiver, likewise: 0, unless the map is curved.
   double level_slope(int row, int column, const Eigen::Vector2d& azimuth) const;
 
+  /// Its samples and normals may be elsewhere: below.
   const Surface& surface() const { return surface_; }
+  float height(int row, int column) const {
+    return ground_ ? ground_->height(row, column) : surface_.map.height(row, column);
+  }
+  Vector3 normal(int row, int column) const {
+    return ground_ ? ground_->normal(row, column) : surface_.normal(row, column);
+  }
 
  private:
   const Surface& surface_;
+  const StoredGround* ground_ = nullptr;
   MaximumPyramid pyramid_;
   RayGrid grid_;
   int azimuths_;

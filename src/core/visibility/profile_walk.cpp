@@ -25,6 +25,13 @@ struct Cell {
   Cell(const RayGrid& grid, double height, int row, int column) {
     const int right = column + 1 == grid.width ? 0 : column + 1;
     const int below = grid.tiles && row + 1 == grid.cell_rows ? 0 : row + 1;
+    if (grid.ground) {
+      upper_left = double{grid.ground->height(row, column)} - height;
+      upper_right = double{grid.ground->height(row, right)} - height;
+      lower_left = double{grid.ground->height(below, column)} - height;
+      lower_right = double{grid.ground->height(below, right)} - height;
+      return;
+    }
     const float* upper = grid.height + static_cast<std::ptrdiff_t>(row) * grid.width;
     const float* lower = grid.height + static_cast<std::ptrdiff_t>(below) * grid.width;
     upper_left = double{upper[column]} - height;
@@ -148,7 +155,9 @@ class Walk {
       const int line_v = v_.exit_line(level);
       const bool by_column = u_.way_to(line_u) <= v_.way_to(line_v);
       const double exit = by_column ? u_.way_to(line_u) : v_.way_to(line_v);
-      const std::int32_t block = grid_.pyramid->index(level, v_.cell, u_.cell);
+      // Below the pyramid's first level, its blocks bound their parts, too.
+      const int bounding = std::max(level, grid_.first_level);
+      const std::int32_t block = grid_.pyramid->index(bounding, v_.cell, u_.cell);
       const double highest = double{grid_.pyramid->highest[static_cast<std::size_t>(block)]} - height_;
       if (!(highest <= slope_ * (slope_ < 0 ? exit : way_))) {
         if (level > 0) {
@@ -241,7 +250,8 @@ class Walk {
   }
 
   SurfacePoint place(double across, double down) const {
-    const auto cell = static_cast<std::uint32_t>(v_.cell * grid_.width + u_.cell);
+    const std::uint32_t cell = static_cast<std::uint32_t>(v_.cell) * static_cast<std::uint32_t>(grid_.width) +
+                               static_cast<std::uint32_t>(u_.cell);
     return {cell, static_cast<float>(across), static_cast<float>(down)};
   }
 

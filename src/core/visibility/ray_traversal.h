@@ -30,15 +30,27 @@
 
 namespace heightlight {
 
+/// Samples of a surface that is not in memory as a whole. May be asked from many threads.
+class StoredGround {
+ public:
+  virtual ~StoredGround() = default;
+  /// Of a sample of the map; NaN where it is missing.
+  virtual float height(int row, int column) const = 0;
+  /// As build_surface has it.
+  virtual Vector3 normal(int row, int column) const = 0;
+};
+
 /// The surface as the traversal reads it.
 struct RayGrid {
-  const float* height = nullptr;  ///< row-major, `width` per row
+  const float* height = nullptr;         ///< row-major, `width` per row
+  const StoredGround* ground = nullptr;  ///< in place of these, for exact walks alone
   int width = 0;
   int cell_columns = 0;
   int cell_rows = 0;
   bool tiles = false;
   float highest = 0;
   const MaximumPyramid* pyramid = nullptr;
+  int first_level = 0;  ///< of the pyramid; other than 0 for exact walks alone
 };
 
 RayGrid make_ray_grid(const Surface& surface, const MaximumPyramid& pyramid);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "bake/baked_files.h"
 #include "bake/baked_map.h"
 #include "bake/blue_noise.h"
 #include "bake/former_bake.h"
@@ -71,37 +72,50 @@ std::vector<BandText> band_texts(const BakedTexture& texture) {
   return bands;
 }
 
-/// A map's samples as its file holds them.
-FillRows encoded_rows(const BakedTexture& texture, const Surface& surface, const TexelEncoding& encoding) {
-  return [&](int first, int rows, float* samples) {
-    const int width = surface.width();
-    const auto count = static_cast<int>(texture.channels.size());
+/// The values of a texture that a material has.
+FillRows values_of(const BakedTexture& texture, int width) {
+  return [&texture, width](int first, int rows, float* samples) {
+    const std::size_t count = texture.channels.size();
     parallel_for(rows, [&](std::int64_t line) {
-      const int row = first + static_cast<int>(line);
-      float* out = samples + line * width * count;
-      const std::size_t begin = surface.map.height.index(row, 0);
-      for (int column = 0; column < width; ++column) {
-        for (int c = 0; c < count; ++c) {
-          const BakedChannel& channel = texture.channels[static_cast<std::size_t>(c)];
-          const float value = channel.value(begin + static_cast<std::size_t>(column));
-          *out++ = encode_texel(encoding, channel, value, row, column, c);
-        }
+      const auto texels = static_cast<std::size_t>(width);
+      float* out = samples + static_cast<std::size_t>(line) * texels * count;
+      const std::size_t begin = static_cast<std::size_t>(first + line) * texels;
+      for (std::size_t i = begin; i < begin + texels; ++i) {
+        for (const BakedChannel& channel : texture.channels) *out++ = channel.value(i);
       }
     });
   };
 }
 
-void write_baked(const std::filesystem::path& path, const BakedTexture& texture, const Surface& surface,
-                 const TexelEncoding& encoding, const std::optional<Georeference>& place) {
-  const TextureLayout layout{.width = surface.width(),
-                             .height = surface.height(),
+/// A map's samples as its file holds them. All arguments must outlive them.
+FillRows encoded_rows(const BakedTexture& texture, const FillRows& values, int width,
+                      const TexelEncoding& encoding) {
+  return [&texture, &values, width, &encoding](int first, int rows, float* samples) {
+    values(first, rows, samples);
+    const auto count = static_cast<int>(texture.channels.size());
+    parallel_for(rows, [&](std::int64_t line) {
+      const int row = first + static_cast<int>(line);
+      float* sample = samples + line * width * count;
+      for (int column = 0; column < width; ++column) {
+        for (int c = 0; c < count; ++c, ++sample)
+          *sample =
+              encode_texel(encoding, texture.channels[static_cast<std::size_t>(c)], *sample, row, column, c);
+      }
+    });
+  };
+}
+
+void write_baked(const std::filesystem::path& path, const BakedTexture& texture, const FillRows& values,
+                 const TexelEncoding& encoding, const BakedMap& map) {
+  const TextureLayout layout{.width = map.header.height.width,
+                             .height = map.header.height.height,
                              .channels = channel_names(texture),
                              .type = sample_type(encoding.depth),
                              .attributes = {{"ImageDescription", texture.definition}},
-                             .place = place ? &*place : nullptr,
+                             .place = map.place ? &*map.place : nullptr,
                              .bands = band_texts(texture)};
-  const FillRows rows = encoded_rows(texture, surface, encoding);
-  if (path.extension() == ".asc") return write_esri_grid(path, layout, surface.map.spacing, rows);
+  const FillRows rows = encoded_rows(texture, values, layout.width, encoding);
+  if (path.extension() == ".asc") return write_esri_grid(path, layout, map.header.spacing, rows);
   write_texture(path, layout, rows);
 }
 
@@ -133,21 +147,34 @@ class StagedBake {
         former_(find_former_maps(target.folder / files_.back(), options.surface, files_)),
         folder_(target.folder, target.inputs, files_, former_record()) {}
 
-  BakeOutcome write(const Material& material, const HeightSource& source, std::vector<Warning> warnings) {
+  BakeOutcome write(const BakedMap& map, const std::vector<BakedTexture>& textures,
+                    const TextureValues& values) {
     Stopwatch watch;
-    const Surface& surface = *material.surface;
-    SidecarFacts told{
-        .source = target_.source,
-        .facts = source.facts,
-        .former = std::move(former_),
-        .warnings = find_warnings(std::move(warnings), surface.map, material.results.evidence, options_)};
-    const std::vector<BakedTexture> textures = baked_textures(material, options_);
-    write_textures(textures, surface, source.place);
+    const Evidence& evidence = map.material.results.evidence;
+    SidecarFacts told{.source = target_.source,
+                      .map = map,
+                      .former = std::move(former_),
+                      .warnings = find_warnings(map.warnings, map.header, evidence, options_)};
+    write_textures(textures, values, map);
     told.files = folder_.written();  // the shaders that follow are those of every map in the folder
     if (is_wanted(options_, MaterialMap::ao_n)) write_shaders(folder_);
     told.output_seconds = watch.lap();
-    write_sidecar(folder_.file(files_.back()), options_, material, textures, told);
+    write_sidecar(folder_.file(files_.back()), options_, textures, told);
     return {.warnings = std::move(told.warnings), .removed = folder_.commit()};
+  }
+
+  BakeOutcome write(const Material& material, const HeightSource& source, std::vector<Warning> warnings) {
+    const Heightmap& map = material.surface->map;
+    const BakedMap baked{.material = material,
+                         .header = map,
+                         .relief = relief(map),
+                         .missing = count_missing(map),
+                         .sha256 = source.facts.sha256,
+                         .place = source.place,
+                         .warnings = std::move(warnings)};
+    const std::vector<BakedTexture> textures = baked_textures(material, options_);
+    return write(baked, textures,
+                 [&](std::size_t texture) { return values_of(textures[texture], map.height.width); });
   }
 
  private:
@@ -157,14 +184,14 @@ class StagedBake {
   }
 
   /// Compression takes longest, and the libraries compress a file on one thread.
-  void write_textures(const std::vector<BakedTexture>& textures, const Surface& surface,
-                      const std::optional<Georeference>& place) {
+  void write_textures(const std::vector<BakedTexture>& textures, const TextureValues& values,
+                      const BakedMap& map) {
     const TexelEncoding encoding = make_encoding(options_);
     std::vector<std::filesystem::path> paths;
     for (std::size_t i = 0; i < textures.size(); ++i) paths.push_back(folder_.file(files_[i]));
     parallel_for(static_cast<std::int64_t>(textures.size()), [&](std::int64_t i) {
       const auto at = static_cast<std::size_t>(i);
-      write_baked(paths[at], textures[at], surface, encoding, place);
+      write_baked(paths[at], textures[at], values(at), encoding, map);
     });
     for (const std::string& file : files_) {
       if (file.ends_with(".prj")) write_bytes(folder_.file(file), options_.projection);
@@ -285,6 +312,13 @@ BakeOutcome write_material(const Material& material, const HeightSource& source,
                            const BakeTarget& target) {
   check_bake_options(options);
   return StagedBake(options, target).write(material, source, {});
+}
+
+BakeOutcome write_textures(const BakedMap& map, const std::vector<BakedTexture>& textures,
+                           const TextureValues& values, const BakeOptions& options,
+                           const BakeTarget& target) {
+  check_bake_options(options);
+  return StagedBake(options, target).write(map, textures, values);
 }
 
 }  // namespace heightlight

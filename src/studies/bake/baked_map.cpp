@@ -89,7 +89,7 @@ std::vector<BakedChannel> direct(const Material& material) {
 }
 
 std::vector<BakedChannel> horizons(const Material& material, const BakeOptions& options) {
-  const bool north = azimuth_convention(options, *material.surface) == AzimuthConvention::north;
+  const bool north = azimuth_convention(options, material.surface->map.boundary) == AzimuthConvention::north;
   const int azimuths = options.horizon_azimuths;
   std::vector<BakedChannel> channels;
   for (int k = 0; k < azimuths; ++k) {
@@ -282,6 +282,16 @@ std::vector<BakedTexture> baked_textures(const Material& material, const BakeOpt
   }
   textures.push_back(std::move(packed));
   return textures;
+}
+
+std::size_t texture_channels(const BakeOptions& options) {
+  std::size_t channels = options.packed.size();
+  for (const MaterialMap map : options.maps) {
+    const auto components = static_cast<std::size_t>(component_count(map, options));
+    const bool is_padded = options.format == TextureFormat::png && components == 2;  // by an empty one
+    channels += components + (is_padded ? 1 : 0);
+  }
+  return channels;
 }
 
 std::vector<std::string> texture_suffixes(const BakeOptions& options) {

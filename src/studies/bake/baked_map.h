@@ -37,6 +37,9 @@ int component_count(MaterialMap map, const BakeOptions& options);
 /// files, and two channels get a third, empty one.
 std::vector<BakedTexture> baked_textures(const Material& material, const BakeOptions& options);
 
+/// Channels that all of them have together, without finding anything.
+std::size_t texture_channels(const BakeOptions& options);
+
 /// Their suffixes, without finding anything.
 std::vector<std::string> texture_suffixes(const BakeOptions& options);
 

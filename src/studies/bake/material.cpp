@@ -11,16 +11,6 @@ MaterialMap map_of(SkyDefinition definition) {
   return static_cast<MaterialMap>(static_cast<int>(MaterialMap::svf_tilted) + static_cast<int>(definition));
 }
 
-/// Azimuths of a horizon map, rad, counterclockwise from x. Those from x count toward the y of the files.
-std::vector<double> horizon_azimuths(const BakeOptions& options, const Surface& surface) {
-  const AzimuthConvention convention = azimuth_convention(options, surface);
-  std::vector<double> azimuths = equal_azimuths(options.horizon_azimuths, convention);
-  if (options.y_down && convention == AzimuthConvention::math) {
-    for (double& azimuth : azimuths) azimuth = -azimuth;
-  }
-  return azimuths;
-}
-
 Request make_request(const BakeOptions& options, const Surface& surface) {
   const auto has = [&](MaterialMap map) { return is_wanted(options, map); };
   Request request;
@@ -61,9 +51,18 @@ std::vector<ModelError> judge_model(const Results& results) {
 
 }  // namespace
 
-AzimuthConvention azimuth_convention(const BakeOptions& options, const Surface& surface) {
-  return options.azimuth_convention.value_or(surface.tiles() ? AzimuthConvention::math
-                                                             : AzimuthConvention::north);
+AzimuthConvention azimuth_convention(const BakeOptions& options, Boundary boundary) {
+  const bool tiles = boundary == Boundary::tile;
+  return options.azimuth_convention.value_or(tiles ? AzimuthConvention::math : AzimuthConvention::north);
+}
+
+std::vector<double> horizon_azimuths(const BakeOptions& options, const Surface& surface) {
+  const AzimuthConvention convention = azimuth_convention(options, surface.map.boundary);
+  std::vector<double> azimuths = equal_azimuths(options.horizon_azimuths, convention);
+  if (options.y_down && convention == AzimuthConvention::math) {
+    for (double& azimuth : azimuths) azimuth = -azimuth;
+  }
+  return azimuths;
 }
 
 bool is_wanted(const BakeOptions& options, MaterialMap map) {

@@ -19,7 +19,10 @@ struct Material {
 };
 
 /// From where the azimuths of horizons count.
-AzimuthConvention azimuth_convention(const BakeOptions& options, const Surface& surface);
+AzimuthConvention azimuth_convention(const BakeOptions& options, Boundary boundary);
+
+/// Azimuths of a horizon map, rad, counterclockwise from x. Those from x count toward the y of the files.
+std::vector<double> horizon_azimuths(const BakeOptions& options, const Surface& surface);
 
 /// Whether a map is to be written, alone or packed.
 bool is_wanted(const BakeOptions& options, MaterialMap map);

@@ -68,8 +68,8 @@ Json describe_textures(const BakeOptions& options, const std::vector<BakedTextur
   return list;
 }
 
-Json describe_conventions(const BakeOptions& options, const Surface& surface) {
-  const bool north = azimuth_convention(options, surface) == AzimuthConvention::north;
+Json describe_conventions(const BakeOptions& options, const Heightmap& map) {
+  const bool north = azimuth_convention(options, map.boundary) == AzimuthConvention::north;
   const bool ground = options.below == BelowHorizontal::ground;
   return {{"encoding", "linear"},
           {"depth", to_string(options.depth)},
@@ -130,17 +130,19 @@ Json describe_albedo(const Albedo& albedo) {
 
 }  // namespace
 
-void write_sidecar(const std::filesystem::path& path, const BakeOptions& options, const Material& material,
+void write_sidecar(const std::filesystem::path& path, const BakeOptions& options,
                    const std::vector<BakedTexture>& textures, const SidecarFacts& facts) {
+  const Material& material = facts.map.material;
   const Evidence& evidence = material.results.evidence;
   Json json;
   json["version"] = HEIGHTLIGHT_VERSION;
   if (!options.request.empty()) json["request"] = options.request;
   if (!options.surface.empty()) json["surface"] = options.surface;
-  json["map"] = describe_map(facts.source, facts.facts.sha256, *material.surface);
+  json["map"] = describe_map(facts.source, facts.map.sha256, facts.map.header,
+                             {.relief = facts.map.relief, .missing = facts.map.missing});
   json["files"] = describe_textures(options, textures, facts.files);
   for (const Json& entry : facts.former) json["files"].push_back(entry);
-  json["conventions"] = describe_conventions(options, *material.surface);
+  json["conventions"] = describe_conventions(options, facts.map.header);
   json["reach"] = describe_reach(options);
   if (is_wanted(options, MaterialMap::multibounce)) {
     json["albedo"] = describe_albedo(options.albedo);

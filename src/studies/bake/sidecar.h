@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bake/baked_map.h"
+#include "bake/baked_files.h"
 #include "files/file_record.h"
 
 namespace heightlight {
@@ -13,7 +13,7 @@ namespace heightlight {
 /// What the sidecar tells beside what the material knows.
 struct SidecarFacts {
   std::filesystem::path source;
-  SourceFacts facts;
+  const BakedMap& map;
   std::vector<FileRecord> files = {};  ///< the textures, in their order
   nlohmann::ordered_json former = {};  ///< entries for maps of an earlier bake that stay
   std::vector<Warning> warnings;
@@ -21,7 +21,7 @@ struct SidecarFacts {
 };
 
 /// Writes NAME_bake.json: definition, unit, range, options and errors of each file. Throws Error naming it.
-void write_sidecar(const std::filesystem::path& path, const BakeOptions& options, const Material& material,
+void write_sidecar(const std::filesystem::path& path, const BakeOptions& options,
                    const std::vector<BakedTexture>& textures, const SidecarFacts& facts);
 
 }  // namespace heightlight

@@ -1,0 +1,192 @@
+#include <cmath>
+#include <memory>
+
+#include "bake/material.h"
+#include "base/hash.h"
+#include "base/parallel.h"
+#include "files/json_file.h"
+#include "solve/sky_check.h"
+#include "transport/horizon_check.h"
+#include "window/paged_ground.h"
+#include "windows/check_file.h"
+#include "windows/sky_maps.h"
+#include "windows/steps.h"
+#include "windows/work_json.h"
+
+namespace heightlight {
+namespace {
+
+/// Of heights, A and totals, each thread keeps so much.
+constexpr std::uint64_t kPagedBytes = 24ULL << 20;
+
+std::filesystem::path check_path(const Work& work) { return work.task.folder / "check" / "0000.json"; }
+
+/// A map of the work, value by value.
+class PagedWindows {
+ public:
+  PagedWindows(WindowFolder folder, int k) : files_(std::move(folder), k), paged_(files_, kPagedBytes) {}
+  PagedWindows(const PagedWindows&) = delete;
+  PagedWindows& operator=(const PagedWindows&) = delete;
+
+  /// 0 where it is missing.
+  double at(std::size_t texel) const {
+    const auto width = static_cast<std::size_t>(files_.width());
+    const float value = paged_.at(static_cast<int>(texel / width), static_cast<int>(texel % width));
+    return std::isnan(value) ? 0 : double{value};
+  }
+
+ private:
+  WindowFiles files_;
+  PagedMap paged_;
+};
+
+/// All that a surface tells but for samples and normals.
+Surface header_of(const WorkFacts& facts) {
+  Surface header;
+  header.map = {.height = {},
+                .base = facts.base,
+                .spacing = facts.spacing,
+                .boundary = facts.boundary,
+                .curvature = facts.curvature,
+                .curved_about_row = 0.5 * (facts.grid.map_height - 1),
+                .curved_about_column = 0.5 * (facts.grid.map_width - 1)};
+  header.map.height.width = facts.grid.map_width;
+  header.map.height.height = facts.grid.map_height;
+  header.lowest = facts.lowest;
+  header.highest = facts.highest;
+  return header;
+}
+
+MaximumPyramid bounds_of(const Work& work, const Surface& header) {
+  if (header.cell_columns() == 0 || header.cell_rows() == 0) return {};
+  return complete_maximum_pyramid(work.state.facts.first_coarse, read_whole(coarse_folder(work), 2),
+                                  header.cell_columns(), header.cell_rows());
+}
+
+/// A of the receivers that classes of the check are made by.
+std::vector<double> sample_of_check(const Work& work, const PagedWindows& sky, const StoredGround& ground,
+                                    std::uint64_t seed) {
+  const auto width = static_cast<std::size_t>(work.state.facts.grid.map_width);
+  const auto texels = static_cast<std::int64_t>(width) * work.state.facts.grid.map_height;
+  std::vector<double> sample;
+  for (const std::size_t texel : SkyClasses::sample_texels(texels, seed)) {
+    const float height = ground.height(static_cast<int>(texel / width), static_cast<int>(texel % width));
+    if (!std::isnan(height)) sample.push_back(sky.at(texel));
+  }
+  return sample;
+}
+
+/// Of the total's channels.
+std::vector<HorizonCheck> check_totals(const Work& work, const ExactWalker& walker,
+                                       const StoredGround& ground) {
+  const BakeOptions& options = work.task.options;
+  const PagedWindows sky(sky_folder(work), 0);
+  const PagedWindows ambient(sky_folder(work), 1);
+  std::vector<std::unique_ptr<PagedWindows>> totals;
+  FoundMaps found{.sky = [&sky](std::size_t i) { return sky.at(i); },
+                  .ambient = [&ambient](std::size_t i) { return ambient.at(i); }};
+  for (std::size_t c = 0; c < total_channels(work); ++c) {
+    const int k = kFieldMaps * static_cast<int>(c);
+    const PagedWindows& total =
+        *totals.emplace_back(std::make_unique<PagedWindows>(field_folder(work, work.state.gather), k));
+    const double albedo = options.albedo.constant[c];
+    found.totals.push_back({.total = [&total](std::size_t i) { return total.at(i); },
+                            .albedo = [albedo](std::size_t) { return albedo; }});
+  }
+  return check_found(walker, found, sample_of_check(work, sky, ground, options.seed + 5),
+                     {.seed = options.seed, .error = options.error});
+}
+
+/// Of the sky's maps at some receivers.
+std::optional<SkyCheck> check_maps(const Work& work, const ExactWalker& walker) {
+  const BakeOptions& options = work.task.options;
+  const int kept = kept_sky_count(sky_wanted(options));
+  std::vector<std::unique_ptr<WindowFiles>> files;
+  for (int k = 0; k < kept; ++k) files.push_back(std::make_unique<WindowFiles>(sky_folder(work), k));
+  const auto maps_at = [&](int row, int column) {
+    std::vector<Map> maps;
+    for (const std::unique_ptr<WindowFiles>& map : files) {
+      Map& one = maps.emplace_back(1, 1);
+      map->read({row, column, 1, 1}, one.values.data());
+    }
+    HorizonSky sky = sky_of_maps(std::move(maps), options);
+    return CheckedReceiver{.ambient_occlusion = sky.ambient_occlusion.values[0],
+                           .sky_view_factor = sky.sky_view_factor.values[0],
+                           .moments = std::move(sky.moments)};
+  };
+  return check_receivers_sky(walker, maps_at,
+                             {.reach = options.reach, .below = options.below, .seed = options.seed});
+}
+
+nlohmann::ordered_json to_json(const HorizonCheck& check) {
+  return {{"receivers", check.receivers},       {"azimuths", check.azimuths},
+          {"ambient_rmse", check.ambient_rmse}, {"sky_rmse", check.sky_rmse},
+          {"total_rmse", check.total_rmse},     {"total_standard_error", check.total_standard_error}};
+}
+
+nlohmann::ordered_json to_json(const SkyCheck& check) {
+  nlohmann::ordered_json json = {{"receivers", check.receivers},
+                                 {"azimuths", check.azimuths},
+                                 {"ambient_occlusion", check.ambient_occlusion},
+                                 {"sky_view_factor", check.sky_view_factor}};
+  if (check.bent_normal_rad) json["bent_normal_rad"] = *check.bent_normal_rad;
+  if (check.harmonics) json["harmonics"] = *check.harmonics;
+  return json;
+}
+
+SkyCheck sky_check_of(const nlohmann::json& json) {
+  SkyCheck check{.receivers = json.at("receivers"),
+                 .azimuths = json.at("azimuths"),
+                 .ambient_occlusion = json.at("ambient_occlusion"),
+                 .sky_view_factor = json.at("sky_view_factor")};
+  if (json.contains("bent_normal_rad")) check.bent_normal_rad = json["bent_normal_rad"].get<double>();
+  if (json.contains("harmonics")) check.harmonics = json["harmonics"].get<double>();
+  return check;
+}
+
+}  // namespace
+
+void check_receivers(Work& work) {
+  const WorkFacts& facts = work.state.facts;
+  const BakeOptions& options = work.task.options;
+  const Surface header = header_of(facts);
+  const WindowFiles heights(heights_folder(work), 0);
+  const PagedGround ground(heights, facts.spacing, facts.boundary, kPagedBytes);
+  nlohmann::ordered_json found = {{"totals", nlohmann::ordered_json::array()}};
+  if (total_channels(work) > 0) {
+    const ExactWalker walker(header, azimuths_for_check(options.error), ground, bounds_of(work, header),
+                             facts.first_coarse);
+    for (const HorizonCheck& check : check_totals(work, walker, ground))
+      found["totals"].push_back(to_json(check));
+  }
+  const ExactWalker walker(header, kSkyCheckAzimuths, ground, bounds_of(work, header), facts.first_coarse);
+  if (const std::optional<SkyCheck> check = check_maps(work, walker)) found["sky"] = to_json(*check);
+  replace_json(check_path(work), found);
+}
+
+Evidence read_evidence(const Work& work) {
+  const BakeOptions& options = work.task.options;
+  const nlohmann::json found = read_json(check_path(work));
+  Evidence evidence;
+  evidence.error_wanted = options.error;
+  evidence.seed = options.seed;
+  evidence.plan = work.state.plan;
+  evidence.azimuths = work.state.plan->sky.walk.azimuths;
+  evidence.gathers = work.state.gather;
+  evidence.threads = thread_count();
+  for (const nlohmann::json& check : found.at("totals")) {
+    evidence.total_checks.push_back({.receivers = check.at("receivers"),
+                                     .azimuths = check.at("azimuths"),
+                                     .ambient_rmse = check.at("ambient_rmse"),
+                                     .sky_rmse = check.at("sky_rmse"),
+                                     .total_rmse = check.at("total_rmse"),
+                                     .total_standard_error = check.at("total_standard_error")});
+  }
+  if (found.contains("sky")) {
+    evidence.sky_check = sky_check_of(found.at("sky"));
+    evidence.sky_rmse = evidence.sky_check->sky_view_factor;
+  }
+  return evidence;
+}
+
+}  // namespace heightlight

@@ -1,0 +1,19 @@
+#include "visibility/horizon_sky.h"
+#include "windows/sky_maps.h"
+#include "windows/steps.h"
+
+namespace heightlight {
+
+void find_window_sky(Work& work, int window) {
+  const BakeOptions& options = work.task.options;
+  const SkyPlan& plan = work.state.plan->sky;
+  const Surface surface = surface_of_window(work, window, {plan.walk});
+  const SkyTask task{.wanted = sky_wanted(options), .reach = options.reach, .below = options.below};
+  const HorizonSky sky = walk_horizon_sky(surface, {}, plan, task, options.watch);
+  const std::vector<Map> maps = kept_sky_maps(sky, options);
+  std::vector<const Map*> written;
+  for (const Map& map : maps) written.push_back(&map);
+  write_window(sky_folder(work), window, written);
+}
+
+}  // namespace heightlight

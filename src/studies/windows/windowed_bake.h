@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vector>
+
+#include "windows/work.h"
+
+namespace heightlight {
+
+/// Throws UsageError for what bakes in one piece alone can do.
+void check_windowed_options(const BakeOptions& options);
+
+/// Opens the work folder of a task, or begins it (begin_work.h) where there is none, or one of another
+/// request. Of another process's work too: `side` counts where it begins.
+Work open_work(WindowedTask task, int side);
+
+/// The same of work that is begun. Throws Error where it is not.
+Work join_work(WindowedTask task);
+
+/// Parts of the step at hand that nobody has done.
+std::vector<int> pending_parts(Work& work);
+
+/// Does one of them, whoever else does others.
+void do_part(Work& work, int part);
+
+/// When none is pending: on to the next step.
+void next_step(Work& work);
+
+/// Writes the files of a bake that is done, and removes its work folder. Throws as bake_material does.
+BakeOutcome write_windowed(Work& work, const BakeTarget& target);
+
+/// All of it, in this process.
+BakeOutcome bake_in_windows(WindowedTask task, int side, const BakeTarget& target);
+
+}  // namespace heightlight
