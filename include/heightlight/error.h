@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -32,7 +33,12 @@ struct UsageError : Error {
 
 /// The memory allowed does not hold what was asked for. Nothing of it has been taken.
 struct MemoryError : Error {
-  explicit MemoryError(const std::string& message) : Error(message, "memory") {}
+  /// `more`: bytes that would have to be allowed beside those that are; `enough`: what that is in all, such
+  /// as "412M", where whoever throws knows it.
+  MemoryError(const std::string& message, std::uint64_t more, const std::string& enough = "")
+      : Error(message, enough.empty() ? "memory" : "memory " + enough), missing(more) {}
+
+  std::uint64_t missing;
 };
 
 /// A result could not be written: a full disk, an unwritable folder, something else in its place.

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -88,6 +89,9 @@ struct LoadedHeightmap {
 /// Throws UsageError for options outside their range, or that exclude each other.
 void check_load_options(const LoadOptions& options);
 
+/// Bytes that work on a map of so many columns and rows takes at its worst moment, the map included.
+using WorkBytes = std::function<std::uint64_t(int columns, int rows)>;
+
 /// Reads a heightmap: PNG of 8 and 16 bits, Esri ASCII grids (`.asc`), what OpenImageIO reads (EXR, TIFF,
 /// JPEG, TGA, HDR), NumPy arrays (`.npy`), SRTM tiles (`.hgt`) and raw samples (`.raw`, `.r16` …, with
 /// `size`). The format follows from the file's content, not from its name, save for `.asc`, `.hgt` and raw
@@ -100,16 +104,17 @@ void check_load_options(const LoadOptions& options);
 /// that the file itself declares, each as the stored type sees it (the nearest float, half or integer), NaN,
 /// ±infinity and transparent ones go missing. `shrink` comes last, on heights as stretched, so that the
 /// relief of what is left may be less. `width` sets the spacing along the rows, and that of an Esri grid
-/// along the columns in proportion. `memory_limit` (bytes) is checked against the header's size before
-/// samples are read. The file is opened once: its checksum is that of the bytes that were read. Throws Error
-/// naming `path` and what is wrong: missing, a directory, empty, truncated or damaged, no known format,
-/// 0 × 0, larger than memory or 2^31 samples, nothing but missing samples, heights beyond float, several
-/// parts without `part`, channels that differ without `channel`, without `texel` a GeoTIFF whose place is
-/// rotated, odd or contradicts itself (georeference.h) or lengths in feet beside heights of an unknown unit
-/// or degrees of another body than the Earth, raw samples without `size`, written to while it was read;
-/// UsageError as check_load_options does, and for a `part` or `channel` that the file does not have.
+/// along the columns in proportion. Before samples are read, `memory_limit` (bytes) is checked against
+/// what reading takes by the header's size, and what the `work` to come says it takes. The file is opened
+/// once: its checksum is that of the bytes that were read. Throws Error naming `path` and what is wrong:
+/// missing, a directory, empty, truncated or damaged, no known format, 0 × 0, larger than 2^31 samples,
+/// nothing but missing samples, heights beyond float, several parts without `part`, channels that differ
+/// without `channel`, without `texel` a GeoTIFF whose place is rotated, odd or contradicts itself
+/// (georeference.h) or lengths in feet beside heights of an unknown unit or degrees of another body than the
+/// Earth, raw samples without `size`, written to while it was read; MemoryError naming `path`; UsageError as
+/// check_load_options does, and for a `part` or `channel` that the file does not have.
 LoadedHeightmap load_heightmap(const std::filesystem::path& path, const LoadOptions& options,
-                               std::uint64_t memory_limit);
+                               std::uint64_t memory_limit, const WorkBytes& work = {});
 
 /// Reads a sky (sky_light.h) from an image of floating-point samples: EXR, HDR, or TIFF; grey, or red, green
 /// and blue. Throws Error naming the file and what is wrong: all that load_heightmap finds wrong with an

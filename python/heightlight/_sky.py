@@ -127,8 +127,11 @@ def sky(
             "exponential") says how they fade toward it.
         below_horizontal: what lies there in directions that miss the surface: "sky", or "ground", which does not
             shine, as terrain tools have it: A of a plane tilted by S is then (1 + cos S)/2.
-        seed: of every random choice. threads: as many as there are processors where None; results do not
-            depend on it. memory: bytes that may be taken.
+        seed: of every random choice. threads: where None, as OMP_NUM_THREADS says, or one per processor that
+            this process may use, by its affinity and its control group's quota; results do not depend on it.
+        memory: bytes that may be taken beside what the process holds already (of the command's --memory, the
+            part that is not the program itself). Where None, four fifths of what the machine has free, of
+            what the control group leaves, or of what RLIMIT_AS leaves, whichever is least.
         progress: True shows bars where tqdm is installed; or a function of (name, done, total, ended).
 
     Raises:

@@ -138,11 +138,18 @@ void check_albedo(const std::string& text) {
   InputFile(std::filesystem::path(text));  // throws where there is none
 }
 
-ReadAlbedo read_albedo(const std::string& text, const Heightmap& map, std::uint64_t memory_limit) {
+Albedo announced_albedo(const std::string& text) {
+  constexpr std::size_t kMostChannels = 3;
   if (auto colour = parse_picture_colour(text))
-    return {.albedo = {.constant = check_constants(text, std::move(*colour))}};
+    return {.constant = check_constants(text, std::move(*colour))};
   if (auto constants = parse_constants(text))
-    return {.albedo = {.constant = check_constants(text, std::move(*constants))}};
+    return {.constant = check_constants(text, std::move(*constants))};
+  return {.varying = std::vector<TexelVector>(kMostChannels)};
+}
+
+ReadAlbedo read_albedo(const std::string& text, const Heightmap& map, std::uint64_t memory_limit) {
+  Albedo announced = announced_albedo(text);
+  if (announced.varying.empty()) return {.albedo = std::move(announced)};
   return read_albedo_file(text, map, memory_limit);
 }
 

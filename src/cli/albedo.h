@@ -21,6 +21,10 @@ struct ReadAlbedo {
 /// another size, with samples outside [0, 1] or NaN, or written to while it was read.
 ReadAlbedo read_albedo(const std::string& text, const Heightmap& map, std::uint64_t memory_limit);
 
+/// An albedo with as many channels as read_albedo will find at most, and without the values of a file. Throws
+/// UsageError for values outside [0, 1].
+Albedo announced_albedo(const std::string& text);
+
 /// "0.2,0.5,0.8": albedos that are tried one by one, at most eight; nothing where the text is no list of
 /// numbers. Throws UsageError for values outside [0, 1] or too many.
 std::optional<std::vector<double>> parse_albedo_list(const std::string& text);

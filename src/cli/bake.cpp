@@ -3,11 +3,13 @@
 #include <cstdio>
 #include <memory>
 
+#include "bake/bake_memory.h"
 #include "base/progress.h"
 #include "cli/albedo.h"
 #include "cli/bake_command.h"
 #include "cli/commands.h"
 #include "cli/map_options.h"
+#include "cli/memory_promise.h"
 #include "cli/name_errors.h"
 #include "cli/reach_options.h"
 #include "cli/tell.h"
@@ -44,11 +46,14 @@ void check_batch(const BakeCommand& command, const BakeInputs& listed, const Inp
   }
 }
 
-BakeOutcome bake_file(const BakeCommand& command, const BakeInput& input, const InputGuard& guard,
-                      bool quiet) {
+BakeOutcome bake_within(const BakeCommand& command, const BakeInput& input, const InputGuard& guard,
+                        bool quiet) {
   BakeOptions options = options_for(command, input.path);
   options.watch = terminal_watch(quiet);
-  LoadedHeightmap loaded = load_heightmap(input.path, command.load, command.run.memory);
+  options.albedo = announced_albedo(command.albedo);
+  LoadedHeightmap loaded =
+      load_heightmap(input.path, command.load, command.run.memory,
+                     [&](int width, int height) { return bake_bytes(width, height, options); });
   ReadAlbedo albedo = read_albedo(command.albedo, loaded.map, command.run.memory);
   options.albedo = std::move(albedo.albedo);
   if (!command.max_distance.empty()) {
@@ -61,7 +66,7 @@ BakeOutcome bake_file(const BakeCommand& command, const BakeInput& input, const 
       DirectLight light = find_direct_light(command.light, surface,
                                             {.error = options.error,
                                              .seed = options.seed,
-                                             .memory = command.run.memory,
+                                             .memory = memory_beside(command.run, surface),
                                              .watch = options.watch});
       return BakedLight{.channels = std::move(light.channels),
                         .description = std::move(light.description),
@@ -73,6 +78,11 @@ BakeOutcome bake_file(const BakeCommand& command, const BakeInput& input, const 
   const BakeTarget target{
       .source = input.path, .inputs = guard, .folder = command.folder, .name = input.name};
   return name_errors(input.path, [&] { return bake_material(std::move(loaded), options, target); });
+}
+
+BakeOutcome bake_file(const BakeCommand& command, const BakeInput& input, const InputGuard& guard,
+                      bool quiet) {
+  return keep_promise(command.run, [&] { return bake_within(command, input, guard, quiet); });
 }
 
 /// How a batch went.

@@ -6,6 +6,7 @@
 #include "cli/simulation_files.h"
 #include "files/saved_run.h"
 #include "heightlight/error.h"
+#include "plot/previews.h"
 
 namespace heightlight {
 namespace {
@@ -43,7 +44,7 @@ void SimulationSink::take_links(const FormFactors& form_factors) {
 void SimulationSink::take_bounce(int b, const TexelVector& irradiance) {
   alpha_->add(irradiance);
   sky_->add(irradiance);
-  if (b < kPreviewedBounces) first_.push_back(to_map(irradiance, surface_));
+  if (b < kPreviewedBounces) first_.push_back(grey_picture(to_map(irradiance, surface_)));
   if (!options_.save_bounces) return;
   write_map(output_, std::filesystem::path(bounce_file(b)).stem().string(), to_map(irradiance, surface_),
             "E_b / pi at albedo 1, b = " + std::to_string(b));
@@ -56,7 +57,7 @@ void SimulationSink::take_tail(const TexelVector& tail) {
 
 std::uint64_t SimulationSink::bytes_per_texel() {
   constexpr std::uint64_t kOnItsWay = 2;  // a bounce that is written: as a map, and as the writer's samples
-  return 2 * CurveBuilder::kBytesPerTexel + (kPreviewedBounces + kOnItsWay) * sizeof(Map::value_type);
+  return 2 * CurveBuilder::kBytesPerTexel + kOnItsWay * sizeof(Map::value_type);
 }
 
 }  // namespace heightlight

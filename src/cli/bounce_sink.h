@@ -24,7 +24,7 @@ class SimulationSink : public BounceSink {
   void take_tail(const TexelVector& tail) override;
 
   /// The first bounces, for the eye.
-  const std::vector<Map>& first() const { return first_; }
+  const std::vector<Image<Rgb8>>& first() const { return first_; }
   /// Over α, and over A.
   std::vector<BounceCurves> curves() const { return {alpha_->curves(), sky_->curves()}; }
 
@@ -39,7 +39,7 @@ class SimulationSink : public BounceSink {
   std::optional<Reach> reach_;  ///< of the obscurance, where that is asked for
   std::optional<CurveBuilder> alpha_;
   std::optional<CurveBuilder> sky_;
-  std::vector<Map> first_;
+  std::vector<Image<Rgb8>> first_;
 };
 
 }  // namespace heightlight

@@ -11,6 +11,7 @@
 #include "cli/compare_pictures.h"
 #include "cli/compare_terrain.h"
 #include "cli/map_options.h"
+#include "cli/memory_promise.h"
 #include "cli/name_errors.h"
 #include "cli/plots.h"
 #include "cli/terminal_watch.h"
@@ -82,9 +83,10 @@ std::uint64_t memory_for_methods(const CompareOptions& options, const Surface& s
   const std::uint64_t held = bytes_held(surface, albedos.size(), shown_methods().size());
   if (held < options.run.memory) return options.run.memory - held;
   throw MemoryError("comparing on " + std::to_string(surface.width()) + " × " +
-                    std::to_string(surface.height()) + " texels needs " + format_byte_size(held) +
-                    " beside what the methods take, more than the " + format_byte_size(options.run.memory) +
-                    " allowed");
+                        std::to_string(surface.height()) + " texels needs " + format_byte_size(held) +
+                        " beside what the methods take, more than the " +
+                        format_byte_size(options.run.memory) + " allowed",
+                    held + 1 - options.run.memory);
 }
 
 std::vector<std::string> result_names() {
@@ -173,9 +175,11 @@ void compare(CompareOptions& options) {
   StagedFolder folder(options.folder, {options.map.path, options.albedo, options.forms.file, options.sky},
                       result_names(), {.file = "compare.json", .prefix = "error_"});
   Plots plots;
-  LoadedHeightmap loaded = load_heightmap(options.map.path, options.map.load, options.run.memory);
-  const Surface surface = build_surface(std::move(loaded.map));
-  name_errors(options.map.path, [&] { compare_on(options, surface, loaded, own, folder, plots); });
+  keep_promise(options.run, [&] {
+    LoadedHeightmap loaded = load_heightmap(options.map.path, options.map.load, options.run.memory);
+    const Surface surface = build_surface(std::move(loaded.map));
+    name_errors(options.map.path, [&] { compare_on(options, surface, loaded, own, folder, plots); });
+  });
   plots.check();
 }
 

@@ -9,6 +9,7 @@
 #include "base/byte_size.h"
 #include "cli/albedo.h"
 #include "cli/light_options.h"
+#include "cli/memory_promise.h"
 #include "cli/name_errors.h"
 #include "cli/plots.h"
 #include "cli/terminal_watch.h"
@@ -40,8 +41,9 @@ TrialOptions trial_options(const TerrainRun& run, const Surface& surface) {
   const std::uint64_t held = surface.map.height.size() * study_bytes_per_texel(options.albedos.size());
   if (held >= run.run.memory)
     throw MemoryError("the study needs " + format_byte_size(held) +
-                      " beside the light transport, more than the " + format_byte_size(run.run.memory) +
-                      " allowed");
+                          " beside the light transport, more than the " + format_byte_size(run.run.memory) +
+                          " allowed",
+                      held + 1 - run.run.memory);
   options.memory = run.run.memory - held;
   return options;
 }
@@ -153,9 +155,11 @@ void compare_terrain(TerrainRun run) {
                        "terrain_methods.png", "terrain.json"},
                       {.file = "terrain.json"});
   Plots plots;
-  LoadedHeightmap loaded = load_heightmap(run.map.path, run.map.load, run.run.memory);
-  const Surface surface = build_surface(std::move(loaded.map));
-  name_errors(run.map.path, [&] { study_on(run, surface, loaded, folder, plots); });
+  keep_promise(run.run, [&] {
+    LoadedHeightmap loaded = load_heightmap(run.map.path, run.map.load, run.run.memory);
+    const Surface surface = build_surface(std::move(loaded.map));
+    name_errors(run.map.path, [&] { study_on(run, surface, loaded, folder, plots); });
+  });
   plots.check();
 }
 

@@ -8,6 +8,7 @@
 #include "cli/fit_pictures.h"
 #include "cli/fit_print.h"
 #include "cli/map_options.h"
+#include "cli/memory_promise.h"
 #include "cli/plots.h"
 #include "cli/tell.h"
 #include "cli/terminal_watch.h"
@@ -40,7 +41,9 @@ std::vector<JudgedMap> read_maps(const FitOptions& options, std::vector<std::fil
   Progress progress("reading", static_cast<std::int64_t>(options.curves.size()), watch);
   for (const std::filesystem::path& path : options.curves) {
     progress.throw_if_stopped();
-    for (JudgedMap& map : read_judged_maps(path, options.run.memory)) {
+    std::vector<JudgedMap> read =
+        keep_promise(options.run, [&] { return read_judged_maps(path, options.run.memory); });
+    for (JudgedMap& map : read) {
       without_run += map.expected_seen ? 0 : 1;
       maps.push_back(std::move(map));
       inputs.push_back(path);

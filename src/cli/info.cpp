@@ -6,6 +6,7 @@
 
 #include "cli/commands.h"
 #include "cli/map_options.h"
+#include "cli/memory_promise.h"
 #include "cli/warnings.h"
 #include "files/printable.h"
 
@@ -92,7 +93,8 @@ void report_map(const Heightmap& map, const EdgeSteps& steps) {
 
 void run_info(MapOptions& map_options, RunOptions& run_options) {
   apply_run_options(run_options);
-  const LoadedHeightmap loaded = load_heightmap(map_options.path, map_options.load, run_options.memory);
+  const LoadedHeightmap loaded = keep_promise(
+      run_options, [&] { return load_heightmap(map_options.path, map_options.load, run_options.memory); });
   if (run_options.quiet) return;
   report_file(map_options.path, loaded.facts);
   report_kind(loaded, map_options.load);

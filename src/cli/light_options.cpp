@@ -60,7 +60,8 @@ DirectLight light_of_sky(const std::string& name, const Surface& surface, const 
   const std::uint64_t needed = sky_irradiance_bytes(surface, sky);
   if (needed > limits.memory)
     throw MemoryError("the light of a sky needs " + format_byte_size(needed) + ", more than the " +
-                      format_byte_size(limits.memory) + " of memory allowed");
+                          format_byte_size(limits.memory) + " of memory allowed",
+                      needed - limits.memory);
   SkyIrradiance found =
       sky_irradiance(surface, sky, {.error = limits.error, .seed = limits.seed, .watch = limits.watch});
   return {.channels = std::move(found.channels),

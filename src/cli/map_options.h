@@ -27,8 +27,9 @@ void add_map_options(CLI::App& command, MapOptions& options);
 
 /// The options that say how a command runs.
 struct RunOptions {
-  int threads = 0;           ///< 0: one per processor
-  std::uint64_t memory = 0;  ///< bytes; set by apply_run_options where the user did not
+  int threads = 0;           ///< 0: default_threads
+  std::uint64_t memory = 0;  ///< bytes of the whole process; apply_run_options leaves those of its work
+  std::uint64_t program_memory = 0;  ///< bytes of the rest: code, libraries, stacks
   std::uint64_t seed = 1;
   bool quiet = false;
 };
@@ -39,8 +40,8 @@ void add_resource_options(CLI::App& command, RunOptions& options);
 /// Adds these, and `--seed`.
 void add_run_options(CLI::App& command, RunOptions& options);
 
-/// Sets the number of threads, and the default for `--memory`: four fifths of what the machine can still
-/// give.
+/// Sets the number of threads, ours and libraries', and what the work may take: `--memory`, or what of the
+/// machine is this process's share by default, less what the program takes by itself.
 void apply_run_options(RunOptions& options);
 
 }  // namespace heightlight

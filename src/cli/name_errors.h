@@ -12,7 +12,7 @@ auto name_errors(const std::filesystem::path& map, Work&& work) {
   try {
     return work();
   } catch (const MemoryError& error) {
-    throw MemoryError(map.string() + ": " + error.what());
+    throw MemoryError(map.string() + ": " + error.what(), error.missing);
   }
 }
 

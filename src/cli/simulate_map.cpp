@@ -1,8 +1,9 @@
+#include <algorithm>
 #include <string>
 
-#include "base/byte_size.h"
 #include "base/stopwatch.h"
 #include "cli/bounce_sink.h"
+#include "cli/memory_promise.h"
 #include "cli/name_errors.h"
 #include "cli/reach_options.h"
 #include "cli/simulation.h"
@@ -12,6 +13,8 @@
 #include "heightlight/error.h"
 #include "plot/curve_plots.h"
 #include "relief/relief_study.h"
+#include "transport/map_gather.h"
+#include "visibility/horizon_sky.h"
 
 namespace heightlight {
 namespace {
@@ -28,13 +31,6 @@ InputGuard guard_inputs(const SimulateOptions& options) {
   return files;
 }
 
-LoadedHeightmap load_input(const SimulateOptions& options) {
-  LoadedHeightmap loaded = load_heightmap(options.map.path, options.map.load, options.run.memory);
-  if (!options.sha256.empty() && loaded.facts.sha256 != options.sha256)
-    throw file_error(options.map.path, "was changed while it was in use");
-  return loaded;
-}
-
 Albedo read_input_albedo(const SimulateOptions& options, const Heightmap& map) {
   ReadAlbedo read = read_albedo(options.albedo, map, options.run.memory);
   if (!options.albedo_sha256.empty() && read.sha256 != options.albedo_sha256)
@@ -42,27 +38,20 @@ Albedo read_input_albedo(const SimulateOptions& options, const Heightmap& map) {
   return std::move(read.albedo);
 }
 
-/// What the sink, the albedo and the totals as maps hold beside the solution.
-std::uint64_t bytes_held(const SimulateOptions& options, const Surface& surface, const Albedo& albedo) {
+/// What the sink, the albedo, the totals as maps and light of one's own hold beside the solution.
+std::uint64_t bytes_held(int width, int height, const SimulateOptions& options, const Albedo& albedo) {
+  const auto texels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+  constexpr std::uint64_t kVector = sizeof(TexelVector::value_type);
+  constexpr std::uint64_t kMap = sizeof(Map::value_type);
+  const bool lit = has_own_light(options.light);
   const std::uint64_t ends =
       options.save_links ? sizeof(std::int64_t) : 0;  // of rows, while links are written
-  const std::uint64_t transfer =
-      options.obscurance.empty() ? 0 : (1 + albedo.channels()) * sizeof(Map::value_type);
-  const std::uint64_t light =
-      has_own_light(options.light) ? 3 * (sizeof(TexelVector::value_type) + sizeof(Map::value_type)) : 0;
+  const std::uint64_t transfer = options.obscurance.empty() ? 0 : (1 + albedo.channels()) * kMap;
+  // As it was found, as it is solved for, and as maps; two operators at once, one with the results so far.
+  const std::uint64_t light = lit ? 3 * (2 * kVector + kMap) + 2 * horizon_sky_bytes({}) + kVector : 0;
   const std::uint64_t per_texel = ends + transfer + light + SimulationSink::bytes_per_texel() +
-                                  albedo.channels() * sizeof(Map::value_type) +
-                                  albedo.varying.size() * sizeof(TexelVector::value_type);
-  return surface.map.height.size() * per_texel;
-}
-
-/// What the solution may take: the limit less that.
-std::uint64_t memory_to_solve(const SimulateOptions& options, const Surface& surface, const Albedo& albedo) {
-  const std::uint64_t own = bytes_held(options, surface, albedo);
-  if (own < options.run.memory) return options.run.memory - own;
-  throw MemoryError("simulating " + std::to_string(surface.width()) + " × " +
-                    std::to_string(surface.height()) + " texels needs more than " + format_byte_size(own) +
-                    ", and " + format_byte_size(options.run.memory) + " are allowed");
+                                  albedo.channels() * kMap + albedo.varying.size() * kVector;
+  return texels * per_texel + (lit ? gather_bytes(width, height, 0) : 0);
 }
 
 Request make_request(const SimulateOptions& options, const Albedo& albedo, const Watch& watch) {
@@ -72,6 +61,22 @@ Request make_request(const SimulateOptions& options, const Albedo& albedo, const
   request.checks.sky = false;  // A is checked with the total
   request.watch = watch;
   return request;
+}
+
+/// Of an albedo, only the number of channels counts, and whether it varies.
+std::uint64_t simulation_bytes(int width, int height, const SimulateOptions& options, const Albedo& albedo) {
+  return bytes_held(width, height, options, albedo) +
+         estimate_memory(width, height, make_request(options, albedo, {}));
+}
+
+LoadedHeightmap load_input(const SimulateOptions& options) {
+  const Albedo albedo = announced_albedo(options.albedo);
+  LoadedHeightmap loaded =
+      load_heightmap(options.map.path, options.map.load, options.run.memory,
+                     [&](int width, int height) { return simulation_bytes(width, height, options, albedo); });
+  if (!options.sha256.empty() && loaded.facts.sha256 != options.sha256)
+    throw file_error(options.map.path, "was changed while it was in use");
+  return loaded;
 }
 
 /// Bounces under an even sky and the total under a light of one's own: by one operator where links are
@@ -122,7 +127,7 @@ DirectLight find_light(const SimulateOptions& options, const Surface& surface, S
   DirectLight light = find_direct_light(options.light, surface,
                                         {.error = options.visibility.error.value_or(LightLimits{}.error),
                                          .seed = options.run.seed,
-                                         .memory = options.run.memory,
+                                         .memory = memory_beside(options.run, surface),
                                          .watch = watch});
   simulation.light = light.description;
   simulation.light_rmse = light.rmse;
@@ -166,7 +171,9 @@ void check_simulate_options(const SimulateOptions& options) {
   }
 }
 
-Simulation simulate_map(const SimulateOptions& options, Plots& plots, const Watch& watch) {
+namespace {
+
+Simulation simulate_within(const SimulateOptions& options, Plots& plots, const Watch& watch) {
   Stopwatch total;
   Stopwatch lap;
   Simulation simulation;
@@ -190,14 +197,15 @@ Simulation simulate_map(const SimulateOptions& options, Plots& plots, const Watc
   SimulationSink sink(surface, albedo, options, output);
   const Results results = name_errors(options.map.path, [&] {
     Request request = make_request(options, albedo, watch);
-    request.limits.memory = memory_to_solve(options, surface, albedo);
+    const std::uint64_t held = bytes_held(surface.width(), surface.height(), options, albedo);
+    request.limits.memory = options.run.memory - std::min(options.run.memory, held);
     request.sink = &sink;
     return light.channels.empty() ? solve(surface, request)
                                   : solve_with_light(surface, request, light.channels);
   });
   simulation.evidence = results.evidence;
   for (const std::string& fault : find_faults(results.evidence)) simulation.warnings.push_back({fault});
-  simulation.evidence.estimated_bytes += bytes_held(options, surface, albedo);
+  simulation.evidence.estimated_bytes += bytes_held(surface.width(), surface.height(), options, albedo);
   lap.lap();
   const std::vector<BounceCurves> curves = sink.curves();
   write_curves_csv(folder.file("curves.csv"), curves);
@@ -215,6 +223,12 @@ Simulation simulate_map(const SimulateOptions& options, Plots& plots, const Watc
   write_summary(folder.file("summary.json"), options, surface, albedo, simulation);
   simulation.removed = folder.commit();
   return simulation;
+}
+
+}  // namespace
+
+Simulation simulate_map(const SimulateOptions& options, Plots& plots, const Watch& watch) {
+  return keep_promise(options.run, [&] { return simulate_within(options, plots, watch); });
 }
 
 }  // namespace heightlight

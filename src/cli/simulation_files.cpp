@@ -100,12 +100,12 @@ void write_occlusion(const MapFolder& output, const Results& results) {
 }
 
 void write_pictures(StagedFolder& folder, const Surface& surface, const Results& results,
-                    const std::vector<Map>& first_bounces, const std::vector<Map>& totals) {
+                    const std::vector<Image<Rgb8>>& first_bounces, const std::vector<Map>& totals) {
   write_png(folder.file("height.png"), height_picture(surface));
   write_png(folder.file("ambient_occlusion.png"), grey_picture(results.ambient_occlusion));
   write_png(folder.file("sky_view_factor.png"), grey_picture(results.sky_view_factor));
   write_png(folder.file("irradiance_total.png"), colour_picture(totals));
-  write_png(folder.file("bounces.png"), bounce_strip(first_bounces));
+  write_png(folder.file("bounces.png"), picture_strip(first_bounces));
 }
 
 }  // namespace heightlight

@@ -38,6 +38,6 @@ void write_occlusion(const MapFolder& output, const Results& results);
 
 /// The previews. Throws OutputError.
 void write_pictures(StagedFolder& folder, const Surface& surface, const Results& results,
-                    const std::vector<Map>& first_bounces, const std::vector<Map>& totals);
+                    const std::vector<Image<Rgb8>>& first_bounces, const std::vector<Map>& totals);
 
 }  // namespace heightlight

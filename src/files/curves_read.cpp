@@ -206,9 +206,10 @@ std::vector<RunCurves> read_run_curves(const std::filesystem::path& path, std::u
   // The shortest lines, of some 40 characters, begin a bin each; and vectors double as they grow.
   constexpr std::uint64_t kPerByte = 2 * (sizeof(CurveBin) + sizeof(BounceStatistics)) / 40 + 1;
   if (file.size() > memory_limit / kPerByte) {
-    throw file.error("reading it may take " + format_byte_size(kPerByte * file.size()) + " of memory, and " +
-                         format_byte_size(memory_limit) + " are allowed",
-                     "memory");
+    const std::uint64_t needed = kPerByte * file.size();
+    throw MemoryError(path.string() + ": reading it may take " + format_byte_size(needed) +
+                          " of memory, and " + format_byte_size(memory_limit) + " are allowed",
+                      needed - std::min(needed, memory_limit), write_enough(needed));
   }
   return CurvesReader(file).read();
 }

@@ -117,13 +117,13 @@ void read_values(WordReader& words, std::string_view word, Image<double>& values
 
 }  // namespace
 
-EsriGrid read_esri_grid(const InputFile& file, std::uint64_t memory_limit) {
+EsriGrid read_esri_grid(const InputFile& file, const ReadLimit& limit) {
   WordReader words(file);
   std::string first_value;
   const HeaderWords found = read_header(words, first_value);
   const std::uint64_t columns = get_count(file, found, kColumns);
   const std::uint64_t rows = get_count(file, found, kRows);
-  check_map_size(file.path(), columns, rows, sizeof(double) + sizeof(float), memory_limit);
+  check_map_size(file.path(), columns, rows, sizeof(double) + sizeof(float), limit);
   // Each value takes a digit and a space at least: a header that promises more is not worth the memory.
   if (columns * rows > file.size() / 2 + 1) {
     throw file.error("has too few values: its header announces " + std::to_string(columns) + " x " +

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "files/input_file.h"
+#include "files/map_size.h"
 #include "heightlight/image.h"
 
 namespace heightlight {
@@ -29,6 +30,6 @@ struct EsriGrid {
 /// are separated by any white space. The size is checked (check_map_size) before values are read. Throws
 /// Error naming the file, the line and the fault: an unknown or repeated keyword, a word that is no number,
 /// too few or too many values.
-EsriGrid read_esri_grid(const InputFile& file, std::uint64_t memory_limit);
+EsriGrid read_esri_grid(const InputFile& file, const ReadLimit& limit);
 
 }  // namespace heightlight

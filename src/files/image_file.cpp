@@ -85,6 +85,8 @@ void write_float_image(const std::filesystem::path& path,
 
 namespace {
 
+constexpr int kTextureRows = 64;  // at a time: a multiple of the 16 that EXR compresses together
+
 OIIO::TypeDesc stored_type(SampleType type) {
   switch (type) {
     case SampleType::uint8:
@@ -124,10 +126,9 @@ void write_texture(const std::filesystem::path& path, const TextureLayout& layou
   spec.attribute("DateTime", "1970:01:01 00:00:00");
   for (const auto& [name, text] : layout.attributes) spec.attribute(name, text);
   write_oiio(path, format, spec, [&](OIIO::ImageOutput& output) {
-    constexpr int kRowsAtATime = 64;  // a multiple of the 16 rows that EXR compresses together
     std::vector<float> samples;
-    for (int row = 0; row < layout.height; row += kRowsAtATime) {
-      const int rows = std::min(kRowsAtATime, layout.height - row);
+    for (int row = 0; row < layout.height; row += kTextureRows) {
+      const int rows = std::min(kTextureRows, layout.height - row);
       samples.resize(static_cast<std::size_t>(rows) * static_cast<std::size_t>(layout.width) *
                      layout.channels.size());
       fill(row, rows, samples.data());
@@ -141,6 +142,16 @@ void write_texture(const std::filesystem::path& path, const TextureLayout& layou
     }
     return true;
   });
+}
+
+std::uint64_t texture_writing_bytes(int width, std::uint64_t channels, bool tiff) {
+  // Samples as float and as levels, and the library's copy of both; TIFF's tiles, and the rows that the
+  // coarsest overview is made of, no more than a tile's.
+  constexpr std::uint64_t kCopies = 2 * (sizeof(float) + sizeof(std::uint16_t));
+  constexpr std::uint64_t kCompressor = 1 << 20;
+  const std::uint64_t samples = static_cast<std::uint64_t>(width) * channels;
+  return kCompressor +
+         (tiff ? 2 * kTiffTile * samples * sizeof(float) : std::uint64_t{kTextureRows} * samples * kCopies);
 }
 
 }  // namespace heightlight

@@ -59,6 +59,9 @@ using FillRows = std::function<void(int first, int count, float* samples)>;
 /// not multiplied in. Floats become half by rounding to the nearest.
 void write_texture(const std::filesystem::path& path, const TextureLayout& layout, const FillRows& fill);
 
+/// Bytes that write_texture takes for so many channels, beside what fills the rows.
+std::uint64_t texture_writing_bytes(int width, std::uint64_t channels, bool tiff);
+
 /// SHA-256 of a file's bytes, hexadecimal. Throws Error.
 std::string sha256_of_file(const InputFile& file);
 /// Of these bytes.

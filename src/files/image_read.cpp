@@ -164,11 +164,11 @@ StoredImage TiffRows::read(int first, int count) {
   return rows;
 }
 
-StoredImage read_image(const InputFile& file, FileFormat format, std::uint64_t memory_limit,
+StoredImage read_image(const InputFile& file, FileFormat format, const ReadLimit& limit,
                        const std::optional<std::string>& part) {
   if (part && format != FileFormat::openexr)
     throw UsageError(file.path().string() + ": has no parts; only EXR files have");
-  if (format == FileFormat::png) return read_png(file, memory_limit);
+  if (format == FileFormat::png) return read_png(file, limit);
   StoredImage image;
   check_before_opening(file, format, image);
   OIIO::ImageSpec spec;
@@ -180,7 +180,7 @@ StoredImage read_image(const InputFile& file, FileFormat format, std::uint64_t m
   const OIIO::TypeDesc kept(type.kept);
   const auto channels = static_cast<std::uint64_t>(spec.nchannels);
   check_map_size(file.path(), static_cast<std::uint64_t>(spec.width), static_cast<std::uint64_t>(spec.height),
-                 bytes_per_texel(channels * kept.size()), memory_limit);
+                 bytes_per_texel(channels * kept.size()), limit);
 
   image = describe_image(spec, type, std::move(image));
   if (format == FileFormat::tiff) {

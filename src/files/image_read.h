@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "files/file_format.h"
+#include "files/map_size.h"
 #include "files/tiff_facts.h"
 
 namespace heightlight {
@@ -34,10 +35,10 @@ struct StoredImage {
 
 /// Reads an image, whose format is not esri_grid: the first of a TIFF, the only part of an EXR or the one
 /// that `part` names (any case) or counts (from 0). The header's size is checked (check_map_size) before
-/// samples are read; `memory_limit` in bytes must hold the samples and what heights are made of. Throws Error
+/// samples are read; `limit` in bytes must hold the samples and what heights are made of. Throws Error
 /// naming the file when it is truncated or damaged, too large, deep, of an unknown sample type, or an EXR of
 /// several parts without `part`, UsageError for a `part` that it does not have.
-StoredImage read_image(const InputFile& file, FileFormat format, std::uint64_t memory_limit,
+StoredImage read_image(const InputFile& file, FileFormat format, const ReadLimit& limit,
                        const std::optional<std::string>& part = {});
 
 /// The rows of a TIFF, for images that memory need not hold as a whole.
@@ -69,7 +70,7 @@ class TiffRows {
 };
 
 /// Part of read_image: PNG, through libpng.
-StoredImage read_png(const InputFile& file, std::uint64_t memory_limit);
+StoredImage read_png(const InputFile& file, const ReadLimit& limit);
 
 /// Bytes for each texel while a heightmap is made: the file's samples beside one channel of them as double
 /// and a mark of what is transparent, and afterwards those doubles beside the heights as float.

@@ -71,6 +71,14 @@ Spacing choose_spacing(const InputFile& file, const LoadOptions& options, Stored
   return cell;
 }
 
+/// Of the file's columns and rows.
+WorkBytes after_shrinking(const WorkBytes& work, int factor) {
+  if (!work || factor == 1) return work;
+  return [&work, factor](int columns, int rows) {
+    return work((columns + factor - 1) / factor, (rows + factor - 1) / factor);
+  };
+}
+
 /// How stored values become heights above the lowest of them.
 struct HeightRule {
   double scale = 1;  ///< height per stored value
@@ -149,10 +157,11 @@ void check_load_options(const LoadOptions& options) {
 }
 
 LoadedHeightmap load_heightmap(const std::filesystem::path& path, const LoadOptions& options,
-                               std::uint64_t memory_limit) {
+                               std::uint64_t memory_limit, const WorkBytes& work) {
   check_load_options(options);
   const InputFile file(path);
-  StoredHeights stored = read_stored_heights(file, options, memory_limit);
+  StoredHeights stored =
+      read_stored_heights(file, options, {memory_limit, after_shrinking(work, options.shrink)});
 
   LoadedHeightmap loaded;
   Heightmap& map = loaded.map;

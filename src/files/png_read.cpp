@@ -109,11 +109,11 @@ StoredSamples make_rows(PngState& state, std::size_t rows, std::size_t samples_p
 
 }  // namespace
 
-StoredImage read_png(const InputFile& file, std::uint64_t memory_limit) {
+StoredImage read_png(const InputFile& file, const ReadLimit& limit) {
   const PngHeader header = read_first_chunk(file);
   const std::size_t sample_bytes = header.bits == 16 ? 2 : 1;
   check_map_size(file.path(), header.width, header.height,
-                 bytes_per_texel(most_channels(header.colour_type) * sample_bytes), memory_limit);
+                 bytes_per_texel(most_channels(header.colour_type) * sample_bytes), limit);
   PngState state;
   state.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &state, note_error, note_warning);
   if (state.png) state.info = png_create_info_struct(state.png);

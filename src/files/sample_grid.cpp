@@ -73,11 +73,11 @@ struct SampleLayout {
   bool by_columns = false;
 };
 
-SampleGrid read_samples(const InputFile& file, const SampleLayout& layout, std::uint64_t memory_limit) {
+SampleGrid read_samples(const InputFile& file, const SampleLayout& layout, const ReadLimit& limit) {
   const SampleKind& type = layout.type;
   const auto width = static_cast<std::uint64_t>(layout.width);
   const auto height = static_cast<std::uint64_t>(layout.height);
-  check_map_size(file.path(), width, height, sizeof(double) + sizeof(float), memory_limit);
+  check_map_size(file.path(), width, height, sizeof(double) + sizeof(float), limit);
   const std::uint64_t needed = layout.begin + width * height * type.bytes;
   if (file.size() < needed)
     throw file.error("is truncated: " + std::to_string(file.size()) + " bytes of " + std::to_string(needed));
@@ -155,7 +155,7 @@ int srtm_side(const InputFile& file) {
 
 }  // namespace
 
-SampleGrid read_numpy(const InputFile& file, std::uint64_t memory_limit) {
+SampleGrid read_numpy(const InputFile& file, const ReadLimit& limit) {
   std::array<unsigned char, 12> head{};
   std::FILE* stream = file.rewound();
   if (std::fread(head.data(), 1, head.size(), stream) != head.size()) throw file.error("is truncated");
@@ -185,7 +185,7 @@ SampleGrid read_numpy(const InputFile& file, std::uint64_t memory_limit) {
                        .begin = begin + length,
                        .big_endian = type[0] == '>',
                        .by_columns = header_value(file, header, "fortran_order") == "True"},
-                      memory_limit);
+                      limit);
 }
 
 bool is_srtm(const InputFile& file) {
@@ -211,16 +211,16 @@ std::optional<Georeference> srtm_place(const InputFile& file) {
   return place;
 }
 
-SampleGrid read_srtm(const InputFile& file, std::uint64_t memory_limit) {
+SampleGrid read_srtm(const InputFile& file, const ReadLimit& limit) {
   const int side = srtm_side(file);
   if (side == 0) throw file.error("is no SRTM tile: these have 1201 or 3601 samples a side");
-  SampleGrid grid = read_samples(
-      file, {.type = find_type("i2"), .width = side, .height = side, .big_endian = true}, memory_limit);
+  SampleGrid grid =
+      read_samples(file, {.type = find_type("i2"), .width = side, .height = side, .big_endian = true}, limit);
   grid.place = srtm_place(file);
   return grid;
 }
 
-SampleGrid read_raw(const InputFile& file, const RawLayout& layout, std::uint64_t memory_limit) {
+SampleGrid read_raw(const InputFile& file, const RawLayout& layout, const ReadLimit& limit) {
   const std::uint64_t count =
       static_cast<std::uint64_t>(layout.width) * static_cast<std::uint64_t>(layout.height);
   for (const char* code : {"u1", "u2", "f4"}) {
@@ -228,7 +228,7 @@ SampleGrid read_raw(const InputFile& file, const RawLayout& layout, std::uint64_
     if (file.size() != count * type.bytes) continue;
     return read_samples(
         file, {.type = type, .width = layout.width, .height = layout.height, .big_endian = layout.big_endian},
-        memory_limit);
+        limit);
   }
   throw file.error("has " + std::to_string(file.size()) + " bytes, which " + std::to_string(layout.width) +
                        " × " + std::to_string(layout.height) + " samples of 8, 16 or 32 bits do not have",

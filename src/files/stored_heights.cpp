@@ -30,10 +30,10 @@ Georeference place_of(const InputFile& file, const EsriHeader& header) {
   return place;
 }
 
-StoredHeights read_grid(const InputFile& file, const LoadOptions& options, std::uint64_t memory_limit) {
+StoredHeights read_grid(const InputFile& file, const LoadOptions& options, const ReadLimit& limit) {
   if (options.part) throw UsageError(file.path().string() + ": has no parts; only EXR files have");
   StoredHeights stored;
-  EsriGrid grid = read_esri_grid(file, memory_limit);
+  EsriGrid grid = read_esri_grid(file, limit);
   if (options.channel) find_named("channel", file, {"height"}, *options.channel);
   stored.facts.channel = "height";
   stored.facts.channels = 1;
@@ -46,18 +46,18 @@ StoredHeights read_grid(const InputFile& file, const LoadOptions& options, std::
 
 /// What is no picture and no text: samples one after the other.
 StoredHeights read_sample_file(const InputFile& file, FileFormat format, const LoadOptions& options,
-                               std::uint64_t memory_limit) {
+                               const ReadLimit& limit) {
   if (options.part) throw UsageError(file.path().string() + ": has no parts; only EXR files have");
   if (options.channel) find_named("channel", file, {"height"}, *options.channel);
   if (format == FileFormat::raw && !options.size) throw raw_needs_size(file);
   SampleGrid grid =
-      format == FileFormat::numpy ? read_numpy(file, memory_limit)
+      format == FileFormat::numpy ? read_numpy(file, limit)
       : format == FileFormat::srtm
-          ? read_srtm(file, memory_limit)
+          ? read_srtm(file, limit)
           : read_raw(
                 file,
                 {.width = (*options.size)[0], .height = (*options.size)[1], .big_endian = options.big_endian},
-                memory_limit);
+                limit);
   StoredHeights stored;
   stored.facts.channel = "height";
   stored.facts.channels = 1;
@@ -131,8 +131,8 @@ StoredHeights describe_heights(const InputFile& file, const StoredImage& image, 
 }
 
 StoredHeights read_picture(const InputFile& file, FileFormat format, const LoadOptions& options,
-                           std::uint64_t memory_limit) {
-  const StoredImage image = read_image(file, format, memory_limit, options.part);
+                           const ReadLimit& limit) {
+  const StoredImage image = read_image(file, format, limit, options.part);
   ChannelSamples channel = pick_channel(file, image, options.channel);
   StoredHeights stored = describe_heights(file, image, options);
   const auto after_own = stored.warnings.begin() + static_cast<std::ptrdiff_t>(image.warnings.size());
@@ -195,14 +195,13 @@ void drop_missing(const InputFile& file, const std::optional<double>& no_data, S
 
 }  // namespace
 
-StoredHeights read_stored_heights(const InputFile& file, const LoadOptions& options,
-                                  std::uint64_t memory_limit) {
+StoredHeights read_stored_heights(const InputFile& file, const LoadOptions& options, const ReadLimit& limit) {
   const FileFormat format = recognise_format(file);
   if (options.size && format != FileFormat::raw)
     throw UsageError(file.path().string() + ": tells its size itself; only raw samples want one");
-  StoredHeights stored = format == FileFormat::esri_grid ? read_grid(file, options, memory_limit)
-                         : is_picture(format)            ? read_picture(file, format, options, memory_limit)
-                                              : read_sample_file(file, format, options, memory_limit);
+  StoredHeights stored = format == FileFormat::esri_grid ? read_grid(file, options, limit)
+                         : is_picture(format)            ? read_picture(file, format, options, limit)
+                                                         : read_sample_file(file, format, options, limit);
   stored.facts.format = to_string(format);
   if (options.scale || options.offset) stored.facts.is_stretched = false;
   drop_missing(file, options.no_data, stored);

@@ -6,6 +6,7 @@
 
 #include "files/image_read.h"
 #include "files/input_file.h"
+#include "files/map_size.h"
 #include "files/tiff_facts.h"
 #include "heightlight/files.h"
 
@@ -26,8 +27,7 @@ struct StoredHeights {
 /// Reads them, and makes NaN of what is missing: what `options.no_data` or the file names, as the stored type
 /// sees it, transparent and infinite samples. Throws Error as load_heightmap does, UsageError for a part or
 /// channel that the file does not have.
-StoredHeights read_stored_heights(const InputFile& file, const LoadOptions& options,
-                                  std::uint64_t memory_limit);
+StoredHeights read_stored_heights(const InputFile& file, const LoadOptions& options, const ReadLimit& limit);
 
 /// The same of a TIFF, some rows at a time: what memory need not hold as a whole.
 class StoredHeightRows {

@@ -17,8 +17,6 @@
 namespace heightlight {
 namespace {
 
-constexpr int kTile = 256;
-
 // What libtiff does with a file, done with a stream.
 std::FILE* stream_of(thandle_t handle) { return static_cast<std::FILE*>(handle); }
 
@@ -168,21 +166,21 @@ bool write_tiles(TIFF* tiff, const TextureLayout& layout, ReducedRows& rows) {
       layout.type == SampleType::real ? missing_mark_of(layout) : std::nullopt;
   const std::size_t pixel = channels * bytes_of_sample(layout.type);
   std::vector<float> band;
-  std::vector<unsigned char> tile(kTile * kTile * pixel);
-  for (int top = 0; top < rows.height(); top += kTile) {
+  std::vector<unsigned char> tile(kTiffTile * kTiffTile * pixel);
+  for (int top = 0; top < rows.height(); top += kTiffTile) {
     throw_if_interrupted();
-    const int count = std::min(kTile, rows.height() - top);
+    const int count = std::min(kTiffTile, rows.height() - top);
     band.resize(static_cast<std::size_t>(count) * width * channels);
     rows.fill(top, count, band.data());
     for (float& sample : band) {
       if (mark) sample = mark_missing(*mark, sample);
     }
-    for (std::size_t left = 0; left < width; left += kTile) {
-      const std::size_t columns = std::min<std::size_t>(kTile, width - left);
+    for (std::size_t left = 0; left < width; left += kTiffTile) {
+      const std::size_t columns = std::min<std::size_t>(kTiffTile, width - left);
       std::fill(tile.begin(), tile.end(), static_cast<unsigned char>(0));
       for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
         store(layout.type, band.data() + (i * width + left) * channels, columns * channels,
-              tile.data() + i * kTile * pixel);
+              tile.data() + i * kTiffTile * pixel);
       }
       const auto column = static_cast<std::uint32_t>(left);
       if (TIFFWriteTile(tiff, tile.data(), column, static_cast<std::uint32_t>(top), 0, 0) < 0) return false;
@@ -195,7 +193,7 @@ bool write_tiles(TIFF* tiff, const TextureLayout& layout, ReducedRows& rows) {
 std::vector<int> factors_of(const TextureLayout& layout) {
   std::vector<int> factors{1};
   const int side = std::max(layout.width, layout.height);
-  for (int factor = 2; layout.place && side > kTile * factor / 2; factor *= 2) factors.push_back(factor);
+  for (int factor = 2; layout.place && side > kTiffTile * factor / 2; factor *= 2) factors.push_back(factor);
   return factors;
 }
 

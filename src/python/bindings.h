@@ -22,7 +22,7 @@ struct Settings {
   int rays = 0;  ///< > 0: by rays
   std::uint64_t seed = 1;
   int threads = 0;
-  std::uint64_t memory = 0;  ///< 0: four fifths of what the machine can still give
+  std::uint64_t memory = 0;  ///< bytes beside what the process holds; 0: default_memory
   py::object progress = py::none();
 };
 

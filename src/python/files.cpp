@@ -3,7 +3,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include "base/byte_size.h"
+#include "base/machine_share.h"
 #include "files/degrees.h"
 #include "python/arrays.h"
 #include "python/bindings.h"
@@ -65,7 +65,7 @@ py::dict read_heights(const std::filesystem::path& path, const py::dict& options
   {
     const py::gil_scoped_release release;
     check_load_options(load);
-    loaded = load_heightmap(path, load, available_memory() / 5 * 4);
+    loaded = load_heightmap(path, load, default_memory(default_threads()));
   }
   py::list warnings;
   for (const Warning& warning : loaded.warnings) warnings.append(warning.message);
@@ -96,7 +96,7 @@ void add_files(py::module_& module) {
         SkyLight sky;
         {
           const py::gil_scoped_release release;
-          sky = load_sky_light(path, available_memory() / 5 * 4);
+          sky = load_sky_light(path, default_memory(default_threads()));
         }
         return take_vectors(sky.radiance);
       },

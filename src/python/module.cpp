@@ -1,4 +1,4 @@
-#include "base/byte_size.h"
+#include "base/machine_share.h"
 #include "files/evidence_json.h"
 #include "heightlight/error.h"
 #include "heightlight/version.h"
@@ -19,7 +19,7 @@ Request make_request(const Settings& settings) {
   request.accuracy.azimuths = settings.azimuths;
   if (settings.rays > 0) request.accuracy.rays = settings.rays;
   request.accuracy.seed = settings.seed;
-  request.limits = {.memory = settings.memory > 0 ? settings.memory : available_memory() / 5 * 4,
+  request.limits = {.memory = settings.memory > 0 ? settings.memory : default_memory(settings.threads),
                     .threads = settings.threads};
   return request;
 }
@@ -70,7 +70,13 @@ PYBIND11_MODULE(_native, module) {
   py::class_<Settings>(module, "Settings")
       .def(py::init([](double error, int azimuths, int rays, std::uint64_t seed, int threads,
                        std::uint64_t memory, py::object progress) {
-             Settings settings{error, azimuths, rays, seed, threads, memory, std::move(progress)};
+             Settings settings{error,
+                               azimuths,
+                               rays,
+                               seed,
+                               threads == 0 ? default_threads() : threads,
+                               memory,
+                               std::move(progress)};
              check_settings(settings);
              return settings;
            }),

@@ -41,13 +41,14 @@ TEST_CASE("Three channels make a colour", "[plot]") {
 }
 
 TEST_CASE("Bounces stand side by side with a gap, on one scale", "[plot]") {
-  const Image<Rgb8> strip = bounce_strip({Map(10, 4, 1.0F), Map(10, 4, 0.5F), Map(10, 4, 0.0F)});
+  const Image<Rgb8> strip = picture_strip(
+      {grey_picture(Map(10, 4, 1.0F)), grey_picture(Map(10, 4, 0.5F)), grey_picture(Map(10, 4, 0.0F))});
   CHECK(strip.width == 3 * 10 + 2 * 8);
   CHECK(strip.height == 4);
   CHECK(strip(3, 9) == Rgb8{255, 255, 255});
   CHECK(strip(3, 18) == Rgb8{188, 188, 188});
   CHECK(strip(0, 36) == Rgb8{0, 0, 0});
-  CHECK(bounce_strip({}).size() == 0);
+  CHECK(picture_strip({}).size() == 0);
 }
 
 TEST_CASE("A height picture is brightest on slopes that face the upper left, and marks holes", "[plot]") {

@@ -12,11 +12,10 @@ std::uint64_t parse_byte_size(const std::string& text);
 /// "1.5 GiB", for messages.
 std::string format_byte_size(std::uint64_t bytes);
 
-/// Bytes of memory that the machine can still give, by the kernel's own estimate, within the process's own
-/// limit (RLIMIT_AS).
-std::uint64_t available_memory();
+/// "412M": no less than that many bytes, in whole mebibytes, as parse_byte_size reads it.
+std::string write_enough(std::uint64_t bytes);
 
-/// Largest number of bytes that this process has held so far (its resident set).
+/// Largest number of bytes that this process has held so far (its resident set); 0 where /proc is not there.
 std::uint64_t peak_memory();
 
 }  // namespace heightlight

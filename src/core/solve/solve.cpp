@@ -33,10 +33,11 @@ Evidence begin_evidence(const Request& request) {
 std::uint64_t memory_left(const Surface& surface, const Request& request, Evidence& evidence) {
   const std::uint64_t needed = estimate_memory(surface.width(), surface.height(), request);
   evidence.estimated_bytes = needed;
-  if (needed < request.limits.memory) return request.limits.memory - needed;
+  if (needed <= request.limits.memory) return request.limits.memory - needed;
   throw MemoryError(std::to_string(surface.width()) + " × " + std::to_string(surface.height()) +
-                    " texels need " + format_byte_size(needed) + " beside any links, more than the " +
-                    format_byte_size(request.limits.memory) + " of memory allowed");
+                        " texels need " + format_byte_size(needed) + " beside any links, more than the " +
+                        format_byte_size(request.limits.memory) + " of memory allowed",
+                    needed - request.limits.memory, write_enough(needed));
 }
 
 void check_results(const Task& task, Results& results) {

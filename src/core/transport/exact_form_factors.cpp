@@ -67,10 +67,11 @@ FormFactors build_exact_form_factors(const Surface& surface, int azimuths, const
   if (bytes > static_cast<double>(limits.memory)) {
     throw MemoryError(
         "the exact links of " + std::to_string(surface.width()) + " × " + std::to_string(surface.height()) +
-        " texels along " + std::to_string(azimuths) + " azimuths need " +
-        format_byte_size(static_cast<std::uint64_t>(bytes)) + ", more than the " +
-        format_byte_size(limits.memory) +
-        " of memory that is left for them: use fewer azimuths, an error above 0, or more memory");
+            " texels along " + std::to_string(azimuths) + " azimuths need " +
+            format_byte_size(static_cast<std::uint64_t>(bytes)) + ", more than the " +
+            format_byte_size(limits.memory) +
+            " of memory that is left for them: use fewer azimuths, an error above 0, or more memory",
+        static_cast<std::uint64_t>(bytes) - limits.memory);
   }
   FormFactors form_factors(surface.width(), surface.height());
   Progress progress("visibility", surface.height(), limits.watch);

@@ -37,9 +37,11 @@ double estimate_hits(const Surface& surface, const RayCaster& caster) {
 void check_memory(std::uint64_t bytes, const Surface& surface, int rays, std::uint64_t allowed) {
   if (bytes <= allowed) return;
   throw MemoryError("the links of " + std::to_string(surface.width()) + " × " +
-                    std::to_string(surface.height()) + " texels at " + std::to_string(rays) + " rays need " +
-                    format_byte_size(bytes) + ", more than the " + format_byte_size(allowed) +
-                    " of memory that is left for them: use fewer rays, a smaller map, or more memory");
+                        std::to_string(surface.height()) + " texels at " + std::to_string(rays) +
+                        " rays need " + format_byte_size(bytes) + ", more than the " +
+                        format_byte_size(allowed) +
+                        " of memory that is left for them: use fewer rays, a smaller map, or more memory",
+                    bytes - allowed);
 }
 
 /// Casts one row's rays into its links and its part of the sky maps.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "bake/bake_memory.h"
 #include "base/stopwatch.h"
 
 namespace heightlight {
@@ -11,30 +12,13 @@ MaterialMap map_of(SkyDefinition definition) {
   return static_cast<MaterialMap>(static_cast<int>(MaterialMap::svf_tilted) + static_cast<int>(definition));
 }
 
-Request make_request(const BakeOptions& options, const Surface& surface) {
-  const auto has = [&](MaterialMap map) { return is_wanted(options, map); };
-  Request request;
-  Wanted& wanted = request.wanted;
-  wanted.moments.second = has(MaterialMap::sh);
-  wanted.moments.first =
-      wanted.moments.second || has(MaterialMap::bent_normal) || has(MaterialMap::bent_cone);
-  wanted.sky = wanted.moments.first || has(MaterialMap::ao);
-  wanted.reach = options.reach;
-  wanted.below = options.below;
-  for (const SkyDefinitionFacts& facts : sky_definitions()) {
-    if (has(map_of(facts.definition))) wanted.definitions.push_back(facts.definition);
+/// Azimuths of a horizon map, rad, counterclockwise from x. Those from x count toward the y of the files.
+std::vector<double> horizon_azimuths(const BakeOptions& options, AzimuthConvention convention) {
+  std::vector<double> azimuths = equal_azimuths(options.horizon_azimuths, convention);
+  if (options.y_down && convention == AzimuthConvention::math) {
+    for (double& azimuth : azimuths) azimuth = -azimuth;
   }
-  if (has(MaterialMap::horizon)) wanted.horizon_rad = horizon_azimuths(options, surface);
-  if (has(MaterialMap::multibounce)) wanted.totals.push_back(options.albedo);
-  wanted.seen = has(MaterialMap::ao_n);
-  if (wanted.seen) {
-    for (const double albedo : checked_albedos()) wanted.totals.push_back({.constant = {albedo}});
-  }
-  request.accuracy = {.error = options.error, .azimuths = options.azimuths, .seed = options.seed};
-  request.checks.totals = has(MaterialMap::multibounce);
-  request.limits.memory = options.memory;
-  request.watch = options.watch;
-  return request;
+  return azimuths;
 }
 
 /// What two channels lose, at the albedos whose totals come last.
@@ -56,23 +40,42 @@ AzimuthConvention azimuth_convention(const BakeOptions& options, Boundary bounda
   return options.azimuth_convention.value_or(tiles ? AzimuthConvention::math : AzimuthConvention::north);
 }
 
-std::vector<double> horizon_azimuths(const BakeOptions& options, const Surface& surface) {
-  const AzimuthConvention convention = azimuth_convention(options, surface.map.boundary);
-  std::vector<double> azimuths = equal_azimuths(options.horizon_azimuths, convention);
-  if (options.y_down && convention == AzimuthConvention::math) {
-    for (double& azimuth : azimuths) azimuth = -azimuth;
-  }
-  return azimuths;
-}
-
 bool is_wanted(const BakeOptions& options, MaterialMap map) {
   return std::find(options.maps.begin(), options.maps.end(), map) != options.maps.end() ||
          std::any_of(options.packed.begin(), options.packed.end(),
                      [map](const PackedChannel& channel) { return channel.map == map; });
 }
 
+Request material_request(const BakeOptions& options, AzimuthConvention convention) {
+  const auto has = [&](MaterialMap map) { return is_wanted(options, map); };
+  Request request;
+  Wanted& wanted = request.wanted;
+  wanted.moments.second = has(MaterialMap::sh);
+  wanted.moments.first =
+      wanted.moments.second || has(MaterialMap::bent_normal) || has(MaterialMap::bent_cone);
+  wanted.sky = wanted.moments.first || has(MaterialMap::ao);
+  wanted.reach = options.reach;
+  wanted.below = options.below;
+  for (const SkyDefinitionFacts& facts : sky_definitions()) {
+    if (has(map_of(facts.definition))) wanted.definitions.push_back(facts.definition);
+  }
+  if (has(MaterialMap::horizon)) wanted.horizon_rad = horizon_azimuths(options, convention);
+  if (has(MaterialMap::multibounce)) wanted.totals.push_back(options.albedo);
+  wanted.seen = has(MaterialMap::ao_n);
+  if (wanted.seen) {
+    for (const double albedo : checked_albedos()) wanted.totals.push_back({.constant = {albedo}});
+  }
+  request.accuracy = {.error = options.error, .azimuths = options.azimuths, .seed = options.seed};
+  request.checks.totals = has(MaterialMap::multibounce);
+  request.limits.memory = options.memory;
+  request.watch = options.watch;
+  return request;
+}
+
 Material find_material(const Surface& surface, const BakeOptions& options) {
-  Request request = make_request(options, surface);
+  Request request = material_request(options, azimuth_convention(options, surface.map.boundary));
+  const std::uint64_t beside = bytes_beside_solution(surface.width(), surface.height(), options);
+  request.limits.memory -= std::min(request.limits.memory, beside);
   Material material;
   material.surface = &surface;
   const bool is_lit = is_wanted(options, MaterialMap::multibounce) || is_wanted(options, MaterialMap::direct);

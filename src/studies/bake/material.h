@@ -21,11 +21,11 @@ struct Material {
 /// From where the azimuths of horizons count.
 AzimuthConvention azimuth_convention(const BakeOptions& options, Boundary boundary);
 
-/// Azimuths of a horizon map, rad, counterclockwise from x. Those from x count toward the y of the files.
-std::vector<double> horizon_azimuths(const BakeOptions& options, const Surface& surface);
-
 /// Whether a map is to be written, alone or packed.
 bool is_wanted(const BakeOptions& options, MaterialMap map);
+
+/// What solves for the wanted maps; `convention`: from where the azimuths of horizons count.
+Request material_request(const BakeOptions& options, AzimuthConvention convention);
 
 /// Finds what the wanted maps need, and nothing else. `surface` must outlive the result. Throws what solve
 /// throws.

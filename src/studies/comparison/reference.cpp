@@ -124,8 +124,9 @@ ComparisonReference build_reference(const Surface& surface, const ReferenceOptio
   const std::uint64_t slices = SkySlices::bytes(options.sky.light, options.azimuths);
   if (slices > options.memory)
     throw MemoryError("the sky along " + std::to_string(options.azimuths) + " azimuths takes " +
-                      format_byte_size(slices) + ", more than the " + format_byte_size(options.memory) +
-                      " of memory allowed");
+                          format_byte_size(slices) + ", more than the " + format_byte_size(options.memory) +
+                          " of memory allowed",
+                      slices - options.memory, write_enough(slices));
   ComparisonReference reference;
   reference.sky = options.sky;
   walk_all(surface, options, reference);

@@ -82,12 +82,10 @@ Image<Rgb8> height_picture(const Surface& surface) {
   return grey_picture(shade);
 }
 
-Image<Rgb8> bounce_strip(const std::vector<Map>& bounces) {
+Image<Rgb8> picture_strip(const std::vector<Image<Rgb8>>& panels) {
   constexpr int kGap = 8;
   constexpr Rgb8 kWhite{255, 255, 255};
-  if (bounces.empty()) return {};
-  std::vector<Image<Rgb8>> panels;
-  for (const Map& bounce : bounces) panels.push_back(grey_picture(bounce));
+  if (panels.empty()) return {};
   const int width = panels.front().width;
   const int height = panels.front().height;
   const int count = static_cast<int>(panels.size());

@@ -25,7 +25,7 @@ Image<Rgb8> colour_picture(const std::vector<Map>& channels);
 /// The relief lit from the upper left, 45° high.
 Image<Rgb8> height_picture(const Surface& surface);
 
-/// Bounce after bounce from left to right, as in the notes, all on one scale from 0 to 1 = unoccluded.
-Image<Rgb8> bounce_strip(const std::vector<Map>& bounces);
+/// Pictures of one size beside each other, from left to right: bounce after bounce, as in the notes.
+Image<Rgb8> picture_strip(const std::vector<Image<Rgb8>>& panels);
 
 }  // namespace heightlight

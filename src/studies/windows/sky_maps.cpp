@@ -18,10 +18,7 @@ constexpr float Vector3::*kParts[] = {&Vector3::x, &Vector3::y, &Vector3::z};
 }  // namespace
 
 SkyWanted sky_wanted(const BakeOptions& options) {
-  const bool second = is_wanted(options, MaterialMap::sh);
-  return {.first = second || is_wanted(options, MaterialMap::bent_normal) ||
-                   is_wanted(options, MaterialMap::bent_cone),
-          .second = second};
+  return material_request(options, AzimuthConvention::math).wanted.moments;
 }
 
 std::vector<Map> kept_sky_maps(const HorizonSky& sky, const BakeOptions& options) {

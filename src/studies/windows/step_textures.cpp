@@ -23,10 +23,10 @@ Material material_of_window(const Work& work, int window, const Surface& surface
   for (std::size_t c = 0; c < total_channels(work); ++c)
     material.totals.push_back(
         read_window(field_folder(work, work.state.gather), window, kFieldMaps * static_cast<int>(c)));
-  if (is_wanted(options, MaterialMap::horizon)) {
-    material.results.horizons =
-        walk_horizons(surface, {}, work.state.plan->sky.walk, horizon_azimuths(options, surface),
-                      options.reach, options.watch);
+  const Request request = material_request(options, azimuth_convention(options, surface.map.boundary));
+  if (!request.wanted.horizon_rad.empty()) {
+    material.results.horizons = walk_horizons(surface, {}, work.state.plan->sky.walk,
+                                              request.wanted.horizon_rad, options.reach, options.watch);
   }
   return material;
 }
