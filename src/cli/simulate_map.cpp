@@ -63,10 +63,19 @@ Request make_request(const SimulateOptions& options, const Albedo& albedo, const
   return request;
 }
 
+/// Keeps nothing: what a sink holds, bytes_held tells.
+struct ForgetfulSink : BounceSink {
+  void take_sky(const Map&, const Map&) override {}
+  void take_bounce(int, const TexelVector&) override {}
+  void take_tail(const TexelVector&) override {}
+};
+
 /// Of an albedo, only the number of channels counts, and whether it varies.
 std::uint64_t simulation_bytes(int width, int height, const SimulateOptions& options, const Albedo& albedo) {
-  return bytes_held(width, height, options, albedo) +
-         estimate_memory(width, height, make_request(options, albedo, {}));
+  ForgetfulSink sink;
+  Request request = make_request(options, albedo, {});
+  request.sink = &sink;
+  return bytes_held(width, height, options, albedo) + estimate_memory(width, height, request);
 }
 
 LoadedHeightmap load_input(const SimulateOptions& options) {

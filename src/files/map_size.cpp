@@ -27,7 +27,7 @@ void check_map_size(const std::filesystem::path& path, std::uint64_t columns, st
   if (needed <= limit.memory) return;
   throw MemoryError(path.string() + ": " + (work > reading ? "work on " : "reading ") + size + " takes " +
                         format_byte_size(needed) + " of memory, and " + format_byte_size(limit.memory) +
-                        " are allowed; allow more, or make the map smaller",
+                        " are allowed",
                     needed - limit.memory, write_enough(needed));
 }
 

@@ -349,7 +349,7 @@ TEST_CASE("options that contradict each other are refused before any work, and t
   const auto bake = [&] { bake_map(make_synth_map("fbm", 32, Boundary::tile, 0.1), good, folder.path()); };
   CHECK_THROWS_AS(bake(), MemoryError);
   CHECK_THROWS_WITH(bake(), Catch::Contains("32 × 32") && Catch::Contains("of memory allowed"));
-  CHECK(remedy_of(bake) == "memory");
+  CHECK_THAT(remedy_of(bake), Catch::StartsWith("memory ") && Catch::EndsWith("M"));
   CHECK(folder.entry_count() == 0);
 }
 

@@ -25,11 +25,9 @@ const std::string kUnified =
     "22 1 8:1 / / rw - ext4 /dev/sda1 rw\n"
     "30 22 0:26 / /sys/fs/cgroup rw,nosuid shared:4 - cgroup2 cgroup2 rw,nsdelegate\n";
 
-FakeMachine unified(const std::string& group) {
-  FakeMachine machine;
+void write_unified(const FakeMachine& machine, const std::string& group) {
   machine.write("proc/self/mountinfo", kUnified);
   machine.write("proc/self/cgroup", "0::" + group + "\n");
-  return machine;
 }
 
 constexpr std::uint64_t kMebi = 1 << 20;
@@ -37,7 +35,8 @@ constexpr std::uint64_t kMebi = 1 << 20;
 }  // namespace
 
 TEST_CASE("version 2: the tightest of a group and all above it counts, less what is in use", "[base]") {
-  const FakeMachine machine = unified("/user/job");
+  const FakeMachine machine;
+  write_unified(machine, "/user/job");
   CHECK(!machine.limits().memory);
   CHECK(!machine.limits().processors);
   machine.write("sys/fs/cgroup/user/job/memory.max", "1073741824\n");
@@ -61,7 +60,7 @@ TEST_CASE("version 2: the tightest of a group and all above it counts, less what
 }
 
 TEST_CASE("version 1: each controller has its own tree, and its own mount", "[base]") {
-  FakeMachine machine;
+  const FakeMachine machine;
   machine.write("proc/self/mountinfo",
                 "35 31 0:32 / /cg/memory rw - cgroup cgroup rw,memory\n"
                 "36 31 0:33 / /cg/cpu,cpuacct rw shared:9 - cgroup cgroup rw,cpu,cpuacct\n"
@@ -82,7 +81,7 @@ TEST_CASE("version 1: each controller has its own tree, and its own mount", "[ba
 }
 
 TEST_CASE("a container sees its group at the mount's point", "[base]") {
-  FakeMachine machine;
+  const FakeMachine machine;
   machine.write("proc/self/mountinfo", "35 31 0:32 /docker/f00 /cg rw - cgroup cgroup rw,memory\n");
   machine.write("proc/self/cgroup", "4:memory:/docker/f00/inner\n");
   machine.write("cg/memory.limit_in_bytes", std::to_string(300 * kMebi));
@@ -95,7 +94,8 @@ TEST_CASE("a container sees its group at the mount's point", "[base]") {
 
 TEST_CASE("what makes no sense limits nothing", "[base]") {
   CHECK(!FakeMachine().limits().memory);
-  const FakeMachine machine = unified("/job");
+  const FakeMachine machine;
+  write_unified(machine, "/job");
   for (const char* text : {"", "max", "-5", "12x", "lots", "99999999999999999999999999"}) {
     machine.write("sys/fs/cgroup/job/memory.max", text);
     INFO(text);

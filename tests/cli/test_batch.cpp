@@ -5,6 +5,7 @@
 #include <string>
 
 #include "command.h"
+#include "huge_map.h"
 
 namespace heightlight {
 namespace {
@@ -20,10 +21,10 @@ TEST_CASE("names, links and sizes of some maps do not end a batch", "[cli][bake]
   const ScratchFolder folder;
   fs::create_directory(folder / "in");
   REQUIRE(run_command("synth brick -o in/a.png --size 16", folder).exit_code == 0);
-  REQUIRE(run_command("synth brick -o in/large.png --size 1024", folder).exit_code == 0);
+  write_huge_map(folder / "in/large.png");
   fs::copy_file(folder / "in/a.png", folder / "in/z\xff.png");
   fs::create_symlink("loop.png", folder / "in/loop.png");
-  const CommandResult run = run_command("bake in -o out --maps ao --azimuths 4 --memory 8M", folder);
+  const CommandResult run = run_command("bake in -o out --maps ao --azimuths 4 --memory 4G", folder);
   INFO(run.error);
   CHECK(run.exit_code == 1);
   CHECK_THAT(run.out, Contains("2 baked, 0 skipped, 2 failed"));

@@ -54,9 +54,9 @@ TEST_CASE("what a file makes a reader take is bounded before it is taken", "[cli
   write_large(folder / "run/summary.json", 300);
 
   for (const char* arguments :
-       {"info greedy.exr --memory 100M", "simulate good.png -o o --albedo greedy.exr --memory 100M",
-        "info bomb.png --memory 100M", "simulate good.png -o o --albedo bomb.png --memory 100M",
-        "fit large.csv -o f --memory 100M", "fit large.csv -o f", "dataset large.json -o d",
+       {"info greedy.exr --memory 300M", "simulate good.png -o o --albedo greedy.exr --memory 300M",
+        "info bomb.png --memory 300M", "simulate good.png -o o --albedo bomb.png --memory 300M",
+        "fit large.csv -o f --memory 300M", "fit large.csv -o f", "dataset large.json -o d",
         "bake in -o b --maps ao --azimuths 4", "fit run/curves.csv -o f"}) {
     const ProcessEnd end = run_words(folder, arguments);
     INFO(arguments);

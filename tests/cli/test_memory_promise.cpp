@@ -5,7 +5,6 @@
 
 #include <sys/resource.h>
 
-#include <array>
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <optional>
@@ -15,7 +14,7 @@
 
 #include "base/byte_size.h"
 #include "command.h"
-#include "files/image_file.h"
+#include "huge_map.h"
 #include "results.h"
 #include "running_command.h"
 
@@ -51,7 +50,7 @@ std::optional<std::string> named_amount(const std::string& error) {
 }
 
 Told run_within(Words words, const std::string& amount, const ScratchFolder& folder) {
-  words.insert(words.end(), {"--memory", amount, "--threads", "2", "--error", "0.01", "--quiet"});
+  words.insert(words.end(), {"--memory", amount, "--threads", "2", "--quiet"});
   return run_words(words, folder);
 }
 
@@ -114,13 +113,7 @@ TEST_CASE("--memory is kept on larger maps, whatever is made of them", "[cli][me
 
 TEST_CASE("a map that memory does not hold is refused by its header", "[cli][memory]") {
   const ScratchFolder folder;
-  write_png16(folder / "huge.png", Image<std::uint16_t>(16, 16, 7));
-  {
-    // 30000 × 30000, of which there is nothing: whoever decoded it would say so.
-    std::fstream file(folder / "huge.png", std::ios::binary | std::ios::in | std::ios::out);
-    file.seekp(16);
-    file.write("\0\0\x75\x30\0\0\x75\x30", 8);
-  }
+  write_huge_map(folder / "huge.png");
   for (const Words& words :
        {Words{"bake", "huge.png", "-o", "out"}, Words{"simulate", "huge.png", "-o", "out"}}) {
     const Told told = run_within(words, "4G", folder);

@@ -8,6 +8,7 @@
 #include <string>
 #include <thread>
 
+#include "base/byte_size.h"
 #include "base/texel_algebra.h"
 #include "heightlight/error.h"
 #include "heightlight/forms.h"
@@ -382,16 +383,17 @@ TEST_CASE("memory that does not do is refused before any is taken", "[solve]") {
   const Surface surface = make_surface("sines", 64, 0.1F);
   Request request = whole_request();
   const std::uint64_t needed = estimate_memory(64, 64, request);
-  request.limits.memory = needed;
+  request.limits.memory = needed - 1;
   try {
     solve(surface, request);
     FAIL("nothing was refused");
   } catch (const MemoryError& error) {
-    CHECK(error.remedy == "memory");
+    CHECK(error.missing == 1);
+    CHECK(error.remedy == "memory " + write_enough(needed));
     CHECK_THAT(error.what(), Catch::Contains("64 × 64") && Catch::Contains("MiB"));
   }
-  // A byte more is enough: walks store no links.
-  request.limits.memory = needed + 1;
+  // That much is enough: walks store no links.
+  request.limits.memory = needed;
   const Results tight = solve(surface, request);
   request.limits.memory = ~0ULL;
   CHECK(tight.totals == solve(surface, request).totals);
