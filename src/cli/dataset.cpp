@@ -3,28 +3,22 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <set>
 #include <system_error>
 
-#include "base/progress.h"
-#include "base/stopwatch.h"
 #include "cli/commands.h"
+#include "cli/dataset_locks.h"
+#include "cli/dataset_merge.h"
+#include "cli/dataset_origin.h"
 #include "cli/dataset_runs.h"
 #include "cli/dataset_tables.h"
+#include "cli/dataset_work.h"
 #include "cli/manifest.h"
-#include "cli/memory_promise.h"
-#include "cli/tell.h"
-#include "cli/terminal_watch.h"
-#include "cli/user_message.h"
-#include "cli/warnings.h"
-#include "files/folder_lock.h"
-#include "files/image_file.h"
-#include "files/map_size.h"
-#include "files/output_file.h"
+#include "cli/shard.h"
 #include "files/printable.h"
 #include "files/staged_output.h"
 #include "heightlight/error.h"
-#include "heightlight/synth.h"
 
 namespace heightlight {
 namespace {
@@ -33,15 +27,20 @@ namespace fs = std::filesystem;
 
 struct DatasetOptions {
   fs::path manifest;
+  std::vector<fs::path> others;  ///< whose runs a merge takes in
   fs::path folder;
+  std::string shard;  ///< "K/N"; empty: all runs, and then the tables
+  bool merge = false;
   RunOptions run;
 };
 
-void make_folder(const fs::path& folder) {
-  std::error_code failure;
-  fs::create_directories(folder, failure);
-  if (failure) throw output_error(folder, failure.message());
-}
+/// A dataset to be made: all that its options lead to.
+struct Dataset {
+  const Manifest& manifest;
+  nlohmann::ordered_json origin;
+  std::vector<fs::path> inputs;
+  std::vector<DatasetRun> runs;
+};
 
 /// All files that a job reads.
 std::vector<fs::path> input_files(const Manifest& manifest) {
@@ -53,87 +52,6 @@ std::vector<fs::path> input_files(const Manifest& manifest) {
     if (!options.albedo_file.empty()) inputs.push_back(options.simulate.albedo);
   }
   return inputs;
-}
-
-/// Writes the shape that a run is to read, once in the life of this process: what lies there may be an older
-/// version's.
-void make_shape(const DatasetRun& run, const std::vector<fs::path>& inputs,
-                std::set<const ManifestMap*>& made) {
-  const ManifestMap& map = *run.map;
-  if (!map.is_shape() || made.contains(&map)) return;
-  const fs::path& path = run.simulate.map.path;
-  const auto side = static_cast<std::uint64_t>(map.size);
-  constexpr std::uint64_t kBytesPerTexel = 16;  // heights beside what they are made from
-  keep_promise(run.simulate.run,
-               [&] { check_map_size(path, side, side, kBytesPerTexel, run.simulate.run.memory); });
-  make_folder(path.parent_path());
-  const Image<float> heights = synthesize(map.source, map.size, map.seed);
-  StagedFile file(path, inputs);
-  write_float_image(file.path(), {{"Y", &heights}});
-  file.commit();
-  made.insert(&map);
-}
-
-/// What the runs of a job share: its plots, shapes that were made, warnings that were told.
-struct JobState {
-  Plots& plots;
-  std::set<const ManifestMap*> made = {};
-  std::set<std::string> told = {};
-};
-
-/// Of a map's many runs, each warning is told once; the summary of each has all of its own.
-void tell_new_warnings(const DatasetRun& run, const std::vector<Warning>& warnings,
-                       std::set<std::string>& told) {
-  for (const Warning& warning : warnings) {
-    if (told.insert(run.map->name + '\n' + warning.message).second) tell_warnings(run.name, {warning});
-  }
-}
-
-/// Whether something stands where the run's folder belongs. Then it fails alone; what else a run cannot
-/// write, none can.
-bool is_in_the_way(const fs::path& folder) {
-  std::error_code ignored;
-  return fs::exists(fs::symlink_status(folder, ignored)) && !fs::is_directory(folder, ignored);
-}
-
-/// Why a run failed. Where results cannot be written, no run can do anything, and the job ends.
-std::string try_run(const DatasetRun& run, const std::vector<fs::path>& inputs, JobState& state,
-                    const Watch& watch) {
-  try {
-    make_shape(run, inputs, state.made);
-    tell_new_warnings(run, simulate_map(run.simulate, state.plots, watch).warnings, state.told);
-    return "";
-  } catch (const OutputError& error) {
-    if (!is_in_the_way(run.simulate.folder)) throw;
-    return user_message(error);
-  } catch (const Cancelled&) {
-    throw;
-  } catch (const std::exception& error) {
-    return user_message(error);
-  }
-}
-
-void tell_fault(const DatasetRun& run) { tell(run.name + ": " + run.fault); }
-
-/// Does what is to be done, in the manifest's order.
-void do_runs(const std::vector<DatasetRun*>& runs, const std::vector<fs::path>& inputs, Plots& plots,
-             bool quiet) {
-  const Watch jobs = terminal_watch(quiet);
-  Progress progress("dataset", static_cast<std::int64_t>(runs.size()), jobs);
-  JobState state{.plots = plots};
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    DatasetRun& run = *runs[i];
-    const Watch watch = terminal_watch(quiet, fmt::format("run {} of {}: ", i + 1, runs.size()));
-    Stopwatch lap;
-    run.fault = try_run(run, inputs, state, watch);
-    if (!run.fault.empty()) {
-      tell_fault(run);
-    } else if (!quiet) {
-      fmt::print("{}: {:.1f} s\n", printable(run.name), lap.lap());
-      std::fflush(stdout);
-    }
-    progress.add(1);
-  }
 }
 
 /// Folders in runs/ that no run of the manifest has: of maps or options that were changed or left out.
@@ -148,27 +66,13 @@ std::ptrdiff_t count_stale(const std::vector<DatasetRun>& runs, const fs::path& 
                        });
 }
 
-/// A process that was killed when a result was in place has left what no result of this job may come across.
-void tidy(const std::vector<DatasetRun>& runs, const fs::path& folder) {
-  for (const fs::path& place : {folder, runs_folder(folder), shapes_folder(folder)})
-    remove_left_behind(place);
-  for (const DatasetRun& run : runs) remove_left_behind(run.simulate.folder);
-}
-
-void make_dataset(DatasetOptions& options) {
-  apply_run_options(options.run);
-  const Manifest manifest = read_manifest(options.manifest);
-  const std::vector<fs::path> inputs = input_files(manifest);
-  refuse_to_replace(inputs, options.folder);
-  make_folder(options.folder);
-  const FolderLock lock(options.folder);
-  std::vector<DatasetRun> runs = list_runs(manifest, options.folder, options.run);
-  tidy(runs, options.folder);
-  const InputGuard guard(inputs);
-  for (DatasetRun& run : runs) run.simulate.inputs = guard;
-  Plots plots;
+/// Does the runs that are not done.
+void make_runs(Dataset& dataset, const DatasetOptions& options, Plots& plots) {
+  make_folder(runs_folder(options.folder));
+  write_origin(dataset.origin, options.folder, dataset.inputs);
+  remove_left_by_killed(dataset.runs, options.folder);
   std::vector<DatasetRun*> to_do;
-  for (DatasetRun& run : runs) {
+  for (DatasetRun& run : dataset.runs) {
     if (!run.fault.empty()) {
       tell_fault(run);
     } else if (!is_done(run, plots.possible())) {
@@ -176,24 +80,83 @@ void make_dataset(DatasetOptions& options) {
     }
   }
   if (!options.run.quiet) {
-    fmt::print("{}: {} runs, {} of them to do\n", printable(options.manifest), runs.size(), to_do.size());
+    const std::string share = options.shard.empty() ? "" : ", shard " + options.shard;
+    fmt::print("{}{}: {} runs, {} of them to do\n", printable(options.manifest), share, dataset.runs.size(),
+               to_do.size());
     std::fflush(stdout);
   }
-  make_folder(runs_folder(options.folder));
-  do_runs(to_do, inputs, plots, options.run.quiet);
-  write_tables(manifest, runs, options.folder, inputs);
-  const auto failed =
-      std::count_if(runs.begin(), runs.end(), [](const DatasetRun& run) { return !run.fault.empty(); });
+  do_runs(to_do, dataset.inputs, plots, options.run.quiet);
+}
+
+void check_runs(const Dataset& dataset) {
+  const auto failed = std::count_if(dataset.runs.begin(), dataset.runs.end(),
+                                    [](const DatasetRun& run) { return !run.fault.empty(); });
+  if (failed == 0) return;
+  throw Error(dataset.manifest.path.string() + ": " + std::to_string(failed) + " of " +
+              std::to_string(dataset.runs.size()) + " runs could not be done");
+}
+
+void make_whole(Dataset& dataset, const DatasetOptions& options) {
+  Plots plots;
+  make_runs(dataset, options, plots);
+  write_tables(dataset.origin, dataset.runs, options.folder, dataset.inputs);
   if (!options.run.quiet) {
-    const std::ptrdiff_t stale = count_stale(runs, options.folder);
+    const std::ptrdiff_t stale = count_stale(dataset.runs, options.folder);
     if (stale > 0) fmt::print("{} folders in runs/ belong to no run of the manifest any more\n", stale);
     fmt::print("results in {}\n", printable(options.folder));
   }
-  if (failed > 0) {
-    throw Error(options.manifest.string() + ": " + std::to_string(failed) + " of " +
-                std::to_string(runs.size()) + " runs could not be done");
-  }
+  check_runs(dataset);
   plots.check();
+}
+
+void make_shard(Dataset& dataset, const Shard& shard, const DatasetOptions& options) {
+  std::erase_if(dataset.runs, [&](const DatasetRun& run) { return !has_run(shard, run.key); });
+  Plots plots;
+  make_runs(dataset, options, plots);
+  if (!options.run.quiet)
+    fmt::print("runs in {}; when all shards are done, --merge writes the tables\n",
+               printable(options.folder));
+  check_runs(dataset);
+  plots.check();
+}
+
+void merge(const Dataset& dataset, const DatasetOptions& options) {
+  const MergeFolders folders{.folder = options.folder, .others = options.others};
+  const std::ptrdiff_t taken = merge_runs(dataset.origin, dataset.runs, folders, dataset.inputs);
+  if (options.run.quiet) return;
+  fmt::print("{}: {} runs, {} of them taken in from other folders\nresults in {}\n",
+             printable(options.manifest), dataset.runs.size(), taken, printable(options.folder));
+}
+
+/// The shard that was asked for, if any. Throws UsageError where options contradict each other.
+std::optional<Shard> read_shard(const DatasetOptions& options) {
+  if (!options.others.empty() && !options.merge)
+    throw UsageError(options.others[0].string() + ": only --merge takes in the runs of other folders");
+  if (options.shard.empty()) return std::nullopt;
+  const Shard shard = parse_shard(options.shard);
+  if (options.merge)
+    throw UsageError("shard", options.shard, "cannot be together with --merge, which takes all shards");
+  return shard;
+}
+
+void make_dataset(DatasetOptions& options) {
+  const std::optional<Shard> shard = read_shard(options);
+  apply_run_options(options.run);
+  const Manifest manifest = read_manifest(options.manifest);
+  Dataset dataset{.manifest = manifest,
+                  .origin = describe_origin(manifest),
+                  .inputs = input_files(manifest),
+                  .runs = list_runs(manifest, options.folder, options.run)};
+  refuse_to_replace(dataset.inputs, options.folder);
+  const InputGuard guard(dataset.inputs);
+  for (DatasetRun& run : dataset.runs) run.simulate.inputs = guard;
+  if (shard) {
+    make_shard(dataset, *shard, options);
+  } else if (options.merge) {
+    merge(dataset, options);
+  } else {
+    make_whole(dataset, options);
+  }
 }
 
 }  // namespace
@@ -202,7 +165,14 @@ void add_dataset_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("dataset", "Simulate many maps, reliefs and options into one table");
   auto options = std::make_shared<DatasetOptions>();
   command->add_option("MANIFEST", options->manifest, "what to simulate, as JSON; see below")->required();
+  command->add_option("FOLDER", options->others,
+                      "with --merge: other folders of this dataset, whose runs are taken in");
   command->add_option("-o,--output", options->folder, "folder for the results")->type_name("DIR")->required();
+  command
+      ->add_option("--shard", options->shard,
+                   "do share K of N of the runs, from 1 to N, and leave the tables to --merge")
+      ->type_name("K/N");
+  command->add_flag("--merge", options->merge, "write the tables from runs that are done; simulate nothing");
   add_resource_options(*command, options->run);
   command->footer(
       describe_manifest() +
@@ -210,8 +180,17 @@ void add_dataset_command(CLI::App& app) {
       "costs.csv (seconds), and in runs/ a folder per run with what simulate writes. Stopped or killed, the\n"
       "same command goes on where it was; runs whose map, options or version changed are made again. What\n"
       "is no longer in the manifest leaves the tables; its folder stays, and counts again when it returns.\n"
-      "Example:\n"
-      "  heightlight dataset study.json -o study");
+      "Any number of processes may work in one DIR: each run is done by one of them. Without --shard, all "
+      "of\n"
+      "them end when every run is done, and write the same tables. A shard has the runs whose hash falls to\n"
+      "it, and ends when those are done. --merge refuses folders that another version or another manifest\n"
+      "made (origin.json in each tells). Where runs are missing, those that failed included, it says which,\n"
+      "exits with 1 and writes nothing; without --merge, the tables come without the runs that fail.\n"
+      "Examples:\n"
+      "  heightlight dataset study.json -o study\n"
+      "  heightlight dataset study.json -o study --shard 2/8     # 1/8 … 8/8, on machines that share a disk\n"
+      "  heightlight dataset study.json -o study --merge\n"
+      "  heightlight dataset study.json here there -o study --merge      # of machines that share none");
   command->callback([options] { make_dataset(*options); });
 }
 

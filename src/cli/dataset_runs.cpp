@@ -61,8 +61,7 @@ std::string name_run(const DatasetRun& run) {
   if (run.relief_share) name += "_relief" + in_digits(*run.relief_share);
   if (run.boundary) name += std::string("_") + to_string(*run.boundary);
   if (!run.options->name.empty()) name += "_" + run.options->name;
-  constexpr std::size_t kDigits = 12;
-  return run.key.empty() ? name : name + "-" + run.key.substr(0, kDigits);
+  return run.key.empty() ? name : name + "-" + run.key.substr(0, kNameDigits);
 }
 
 LoadOptions load_options(const DatasetRun& run) {

@@ -10,6 +10,9 @@
 
 namespace heightlight {
 
+/// So many digits of its key end the name of a run.
+constexpr std::size_t kNameDigits = 12;
+
 /// One run of a dataset: what `simulate` is asked for, and what became of it. The names are those of the
 /// manifest, which must outlive it.
 struct DatasetRun {

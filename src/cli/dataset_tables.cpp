@@ -8,15 +8,15 @@
 #include <nlohmann/json.hpp>
 
 #include "base/digits.h"
+#include "cli/dataset_locks.h"
 #include "files/evidence_json.h"
-#include "files/image_file.h"
 #include "files/input_file.h"
 #include "files/interrupt.h"
 #include "files/json_file.h"
+#include "files/lock_file.h"
 #include "files/output_file.h"
 #include "files/staged_output.h"
 #include "heightlight/files.h"
-#include "heightlight/version.h"
 
 namespace heightlight {
 namespace {
@@ -128,8 +128,9 @@ void refuse_to_replace(const std::vector<fs::path>& inputs, const fs::path& fold
   for (const char* name : kTables) guard.check(folder / name);
 }
 
-void write_tables(const Manifest& manifest, const std::vector<DatasetRun>& runs, const fs::path& folder,
+void write_tables(const Json& origin, const std::vector<DatasetRun>& runs, const fs::path& folder,
                   const std::vector<fs::path>& inputs) {
+  const auto lock = LockFile::take(tables_lock_path(folder));
   StagedFolder staged(folder, inputs, {kTables.begin(), kTables.end()});
   Json done = Json::array();
   Json failed = Json::array();
@@ -148,11 +149,9 @@ void write_tables(const Manifest& manifest, const std::vector<DatasetRun>& runs,
     }
   });
   write_bytes(staged.file("costs.csv"), costs);
-  const Json all = {
-      {"version", HEIGHTLIGHT_VERSION},
-      {"manifest", {{"file", manifest.path.filename().string()}, {"sha256", sha256_of_file(manifest.path)}}},
-      {"runs", done},
-      {"failed", failed}};
+  Json all = origin;
+  all["runs"] = done;
+  all["failed"] = failed;
   write_bytes(staged.file("dataset.json"), json_text(all));
   staged.commit();
 }

@@ -11,7 +11,6 @@
 #include "base/hash.h"
 #include "cli/manifest.h"
 #include "command.h"
-#include "files/folder_lock.h"
 #include "folder_contents.h"
 #include "heightlight/error.h"
 #include "running_command.h"
@@ -170,15 +169,6 @@ TEST_CASE("a map that fails does not stop the others, and is told at the end", "
   const nlohmann::json failed = read_dataset(folder)["failed"];
   REQUIRE(failed.size() == 2);
   CHECK_THAT(failed[1]["fault"].get<std::string>(), Contains("broken.png"));
-}
-
-TEST_CASE("a second process in the same dataset is refused", "[cli][dataset]") {
-  const ScratchFolder folder;
-  make_dataset(folder, R"({"maps": [{"shape": "flat", "size": 4}], "options": [{"rays": 4}]})");
-  const FolderLock other(folder / "out");
-  const CommandResult result = run_command("dataset study.json -o out", folder);
-  CHECK(result.exit_code == 1);
-  CHECK(result.error == "heightlight: out: another process is at work in this folder\n");
 }
 
 TEST_CASE("a wrong manifest is refused with file and place", "[cli][dataset]") {

@@ -1,0 +1,63 @@
+#include "files/lock_file.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <thread>
+#include <utility>
+
+#include "files/interrupt.h"
+#include "files/output_file.h"
+
+namespace heightlight {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Whether the open file still has this name: whoever held it before may have removed it since.
+bool is_named(int descriptor, const fs::path& path) {
+  struct stat opened {};
+  struct stat named {};
+  return fstat(descriptor, &opened) == 0 && lstat(path.c_str(), &named) == 0 &&
+         opened.st_ino == named.st_ino && opened.st_dev == named.st_dev;
+}
+
+}  // namespace
+
+std::unique_ptr<LockFile> LockFile::try_take(const fs::path& path) {
+  for (;;) {
+    // Open for writing: NFS grants exclusive locks to no others.
+    const int descriptor = open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
+    if (descriptor < 0) throw output_error(path, errno);
+    const bool is_held = flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    if (!is_held && is_named(descriptor, path))
+      return std::unique_ptr<LockFile>(new LockFile(path, descriptor));
+    close(descriptor);
+    if (is_held) return nullptr;
+  }
+}
+
+std::unique_ptr<LockFile> LockFile::take(const fs::path& path) {
+  for (;;) {
+    if (auto lock = try_take(path)) return lock;
+    wait_for_locks();
+  }
+}
+
+LockFile::LockFile(fs::path path, int descriptor) : path_(std::move(path)), descriptor_(descriptor) {}
+
+LockFile::~LockFile() {
+  unlink(path_.c_str());  // while it is still held: nobody else can have taken it under this name
+  close(descriptor_);
+}
+
+void wait_for_locks() {
+  throw_if_interrupted();
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+}
+
+}  // namespace heightlight
