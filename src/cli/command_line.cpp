@@ -17,6 +17,7 @@
 #include "cli/tell.h"
 #include "cli/user_message.h"
 #include "files/interrupt.h"
+#include "files/lock_file.h"
 #include "files/staging_folder.h"
 #include "heightlight/error.h"
 #include "heightlight/version.h"
@@ -37,7 +38,11 @@ int end_interrupted(int signal_number) {
 }
 
 /// After a signal that the work at hand did not heed in time.
-void end_late(int signal_number) { end_without_staging(end_interrupted(signal_number)); }
+void end_late(int signal_number) {
+  const int exit_code = end_interrupted(signal_number);
+  leave_locks();
+  end_without_staging(exit_code);
+}
 
 /// A standard stream that the parent closed would become the first file that is opened.
 void open_standard_streams() {

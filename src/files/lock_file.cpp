@@ -7,6 +7,8 @@
 
 #include <cerrno>
 #include <chrono>
+#include <mutex>
+#include <set>
 #include <thread>
 #include <utility>
 
@@ -24,6 +26,17 @@ bool is_named(int descriptor, const fs::path& path) {
   struct stat named {};
   return fstat(descriptor, &opened) == 0 && lstat(path.c_str(), &named) == 0 &&
          opened.st_ino == named.st_ino && opened.st_dev == named.st_dev;
+}
+
+/// Those of this process. Never destroyed: the end of the process needs them.
+struct HeldLocks {
+  std::mutex mutex;
+  std::set<const fs::path*> files;
+};
+
+HeldLocks& held_locks() {
+  static HeldLocks* const kHeld = new HeldLocks;
+  return *kHeld;
 }
 
 }  // namespace
@@ -48,11 +61,21 @@ std::unique_ptr<LockFile> LockFile::take(const fs::path& path) {
   }
 }
 
-LockFile::LockFile(fs::path path, int descriptor) : path_(std::move(path)), descriptor_(descriptor) {}
+LockFile::LockFile(fs::path path, int descriptor) : path_(std::move(path)), descriptor_(descriptor) {
+  const std::lock_guard guard(held_locks().mutex);
+  held_locks().files.insert(&path_);
+}
 
 LockFile::~LockFile() {
+  const std::lock_guard guard(held_locks().mutex);
+  held_locks().files.erase(&path_);
   unlink(path_.c_str());  // while it is still held: nobody else can have taken it under this name
   close(descriptor_);
+}
+
+void leave_locks() {
+  held_locks().mutex.lock();  // and never unlocked: a file of this name may soon be another's
+  for (const fs::path* file : held_locks().files) unlink(file->c_str());
 }
 
 void wait_for_locks() {

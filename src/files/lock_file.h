@@ -29,6 +29,9 @@ class LockFile {
   int descriptor_;
 };
 
+/// Removes the files of the locks that this process holds, which must end at once, and stay held until then.
+void leave_locks();
+
 /// Between two looks at locks that others hold: sleeps for a fifth of a second. Throws Cancelled.
 void wait_for_locks();
 

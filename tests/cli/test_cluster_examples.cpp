@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <string>
 
 #include "command.h"
@@ -16,7 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kSmallStudy = R"({
   "maps": [{"shape": "cobbles", "size": 12}, {"shape": "steps", "size": 8}],
-  "relief_shares": [0.1, 0.5, 1],
+  "relief_shares": [0.1, 0.2, 0.4],
   "options": [{"rays": 16, "bounces": 3, "bins": 10}]
 })";
 
@@ -39,9 +40,16 @@ void make_expected(const ScratchFolder& folder) {
   REQUIRE(whole.exit_code == 0);
 }
 
+/// All but summaries, which tell the number of threads.
+std::map<std::string, std::string> results_below(const fs::path& folder) {
+  auto contents = folder_contents(folder);
+  std::erase_if(contents, [](const auto& entry) { return entry.first.ends_with("summary.json"); });
+  return contents;
+}
+
 void check_same_dataset(const ScratchFolder& folder) {
   INFO(read_text(folder / "error.txt"));
-  CHECK((folder_contents(folder / "my study") == folder_contents(folder / "whole")));
+  CHECK((results_below(folder / "my study") == results_below(folder / "whole")));
 }
 
 }  // namespace
