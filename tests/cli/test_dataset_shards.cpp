@@ -1,10 +1,17 @@
 #include <fmt/core.h>
+#include <linux/filter.h>
+#include <linux/seccomp.h>
+#include <sys/prctl.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -71,6 +78,20 @@ void check_same_tables(const ScratchFolder& folder, const std::string& made) {
     CHECK_FALSE(whole.empty());
     CHECK((read_text(folder / (made + '/' + table)) == whole));
   }
+}
+
+/// From now on the system answers this process as a file system without locks does.
+void forbid_locks() {
+  std::array filter{
+      sock_filter BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
+      sock_filter BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_flock, 0, 1),
+      sock_filter BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | ENOLCK),
+      sock_filter BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW),
+  };
+  const sock_fprog program{.len = filter.size(), .filter = filter.data()};
+  if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0 ||
+      prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) != 0)
+    _exit(126);
 }
 
 }  // namespace
@@ -143,6 +164,20 @@ TEST_CASE("a process that waits for another heeds signals", "[cli][dataset]") {
   const ProcessEnd end = command.interrupt_after(0.5, SIGTERM);
   CHECK(end.exit_code == 128 + SIGTERM);
   CHECK(command.error_output() == "heightlight: interrupted\n");
+}
+
+TEST_CASE(
+    "where a file system knows no locks, processes are in each other's way, and the results are the same",
+    "[cli][dataset]") {
+  const ScratchFolder folder;
+  make_whole_dataset(folder);
+  RunningCommand one(dataset_words("out"), folder.path(), forbid_locks);
+  RunningCommand two(dataset_words("out"), folder.path(), forbid_locks);
+  CHECK(one.wait().exit_code == 0);
+  CHECK(two.wait().exit_code == 0);
+  INFO(one.error_output() << two.error_output());
+  run_dataset(folder, dataset_words("out"));
+  CHECK((folder_contents(folder / "out") == folder_contents(folder / "whole")));
 }
 
 TEST_CASE("what killed processes left goes away, and hidden files of others stay", "[cli][dataset]") {
