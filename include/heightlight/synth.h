@@ -25,4 +25,20 @@ const std::vector<SynthShape>& synth_shapes();
 /// unknown name (it lists the known ones) or a size outside [1, 32768].
 Image<float> synthesize(const std::string& shape, int size, std::uint64_t seed);
 
+/// `fbm`, some rows at a time: the same heights, of maps that memory need not hold.
+class FbmRows {
+ public:
+  /// Makes all rows once, for their range. Throws UsageError for a size outside [1, 65536].
+  FbmRows(int size, std::uint64_t seed);
+
+  /// Rows [first, first + count).
+  Image<float> rows(int first, int count) const;
+
+ private:
+  int size_;
+  std::uint64_t seed_;
+  float lowest_;
+  float range_;
+};
+
 }  // namespace heightlight

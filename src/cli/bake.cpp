@@ -16,9 +16,12 @@
 #include "cli/terminal_watch.h"
 #include "cli/user_message.h"
 #include "cli/warnings.h"
+#include "files/file_format.h"
+#include "files/image_file.h"
 #include "files/printable.h"
 #include "files/staged_output.h"
 #include "heightlight/error.h"
+#include "windows/windowed_bake.h"
 
 namespace heightlight {
 namespace {
@@ -80,9 +83,55 @@ BakeOutcome bake_within(const BakeCommand& command, const BakeInput& input, cons
   return name_errors(input.path, [&] { return bake_material(std::move(loaded), options, target); });
 }
 
+/// Of a map that is baked window by window, all that can be told without reading it.
+WindowedTask windowed_task(const BakeCommand& command, const BakeInput& input) {
+  WindowedTask task{.map = input.path, .load = command.load, .options = options_for(command, input.path)};
+  task.options.albedo = announced_albedo(command.albedo);
+  task.folder = command.folder / ("." + input.name + ".windows");
+  if (!command.max_distance.empty()) {
+    task.reach = [&command](double width) {
+      return Reach{.distance = parse_distance("max_distance", command.max_distance, width),
+                   .falloff = falloff_named(command.falloff)};
+    };
+  }
+  return task;
+}
+
+bool can_be_windowed(const BakeCommand& command, const BakeInput& input) {
+  try {
+    check_windowed(windowed_task(command, input));
+    return true;
+  } catch (const UsageError&) {
+    return false;
+  }
+}
+
+/// Window by window. The work goes on where it was, when an earlier process was stopped.
+BakeOutcome bake_by_windows(const BakeCommand& command, const BakeInput& input, const InputGuard& guard,
+                            bool quiet) {
+  WindowedTask task = windowed_task(command, input);
+  check_windowed(task);
+  const std::string sha256 = sha256_of_file(input.path);
+  task.options.surface = surface_of(command, task.options, sha256);
+  task.options.request = request_of(command, task.options, sha256, "");
+  task.options.watch = terminal_watch(quiet);
+  const BakeTarget target{
+      .source = input.path, .inputs = guard, .folder = command.folder, .name = input.name};
+  return bake_in_windows(std::move(task), command.windows.value_or(0), target);
+}
+
+/// In one piece where memory holds that, unless it is not to be; else window by window, where that can be.
 BakeOutcome bake_file(const BakeCommand& command, const BakeInput& input, const InputGuard& guard,
                       bool quiet) {
-  return keep_promise(command.run, [&] { return bake_within(command, input, guard, quiet); });
+  return keep_promise(command.run, [&] {
+    if (command.windows) return bake_by_windows(command, input, guard, quiet);
+    try {
+      return bake_within(command, input, guard, quiet);
+    } catch (const MemoryError&) {
+      if (recognise_format(input.path) != FileFormat::tiff || !can_be_windowed(command, input)) throw;
+    }
+    return bake_by_windows(command, input, guard, quiet);
+  });
 }
 
 /// How a batch went.
@@ -234,6 +283,15 @@ void add_bake_command(CLI::App& app) {
                       "RMSE wanted of the sky view factor and of the total (0.002)");
   command->add_option("--azimuths", options->options.azimuths,
                       "azimuths of the sky, an even number (chosen for --error)");
+  command
+      ->add_option_function<int>(
+          "--out-of-core", [options](int side) { options->windows = side; },
+          "window by window, of SIDE texels each (as many as memory holds), through files beside the "
+          "results; "
+          "what was stopped goes on where it was. By itself where memory does not hold a TIFF")
+      ->expected(0, 1)
+      ->default_val(0)
+      ->type_name("SIDE");
   command->add_flag("--skip-existing", options->skip_existing,
                     "leave out maps that were baked as is asked for now, with all files still there");
   command

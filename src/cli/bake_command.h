@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,7 @@ struct BakeCommand {
   std::string format;  ///< empty: GeoTIFF of terrain, PNG of materials
   std::string depth;
   bool skip_existing = false;
+  std::optional<int> windows = {};  ///< bake window by window, of so many texels a side; 0: as memory has it
   std::string pattern;
 };
 

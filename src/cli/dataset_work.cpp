@@ -11,6 +11,7 @@
 #include "base/progress.h"
 #include "base/stopwatch.h"
 #include "cli/dataset_locks.h"
+#include "cli/memory_promise.h"
 #include "cli/tell.h"
 #include "cli/terminal_watch.h"
 #include "cli/user_message.h"
@@ -38,7 +39,8 @@ void make_shape(const DatasetRun& run, const std::vector<fs::path>& inputs,
   const fs::path& path = run.simulate.map.path;
   const auto side = static_cast<std::uint64_t>(map.size);
   constexpr std::uint64_t kBytesPerTexel = 16;  // heights beside what they are made from
-  check_map_size(path, side, side, kBytesPerTexel, run.simulate.run.memory);
+  keep_promise(run.simulate.run,
+               [&] { check_map_size(path, side, side, kBytesPerTexel, run.simulate.run.memory); });
   make_folder(path.parent_path());
   const Image<float> heights = synthesize(map.source, map.size, map.seed);
   StagedFile file(path, inputs);

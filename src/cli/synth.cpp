@@ -36,12 +36,35 @@ Image<std::uint16_t> to_levels(const Image<float>& heights) {
   return levels;
 }
 
+/// A TIFF in tiles. Of fbm no more than some rows are held at once.
+void write_tiled(const std::filesystem::path& path, const SynthOptions& options) {
+  FillRows fill;
+  if (options.shape == "fbm") {
+    const FbmRows fbm(options.size, options.seed);
+    fill = [fbm](int first, int count, float* samples) {
+      std::ranges::copy(fbm.rows(first, count).values, samples);
+    };
+  } else {
+    fill = [heights = synthesize(options.shape, options.size, options.seed)](int first, int count,
+                                                                             float* samples) {
+      std::copy_n(&heights(first, 0), std::ptrdiff_t{count} * heights.width, samples);
+    };
+  }
+  write_texture(path,
+                {.width = options.size, .height = options.size, .channels = {"Y"}, .type = SampleType::real},
+                fill);
+}
+
 void run_synth(const SynthOptions& options) {
   const std::string extension = lower_case_extension(options.file);
-  if (extension != ".png" && extension != ".exr") {
-    throw UsageError(options.file.string() + ": name a .png (16 bits) or an .exr (float) to write");
+  if (extension != ".png" && extension != ".exr" && extension != ".tif") {
+    throw UsageError(options.file.string() + ": name a .png (16 bits), an .exr or a .tif (float) to write");
   }
   StagedFile file(options.file);
+  if (extension == ".tif") {
+    write_tiled(file.path(), options);
+    return file.commit();
+  }
   const Image<float> heights = synthesize(options.shape, options.size, options.seed);
   if (extension == ".png") {
     write_png16(file.path(), to_levels(heights));
@@ -66,7 +89,7 @@ void add_synth_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("synth", "Make a heightmap");
   auto options = std::make_shared<SynthOptions>();
   command->add_option("SHAPE", options->shape, "what to make; the list is below")->required();
-  command->add_option("-o,--output", options->file, "file to write: .png (16 bits) or .exr (float)")
+  command->add_option("-o,--output", options->file, "file to write: .png (16 bits), .exr or .tif (float)")
       ->required()
       ->type_name("FILE");
   command->add_option("--size", options->size, "texels on each side (512)");
@@ -74,8 +97,9 @@ void add_synth_command(CLI::App& app) {
       ->check(whole_number());
   command->footer(
       describe_shapes() +
-      "Heights run from 0 to 1. Of a .png, other commands stretch them to the relief; of an .exr they\n"
-      "stay as they are, so that --width 4 makes the bowl a true spherical cap.\n"
+      "Heights run from 0 to 1. Of a .png, other commands stretch them to the relief; of an .exr or a .tif\n"
+      "they stay as they are, so that --width 4 makes the bowl a true spherical cap. A .tif has tiles, and\n"
+      "fbm is made into it row by row: memory need not hold it.\n"
       "Examples:\n"
       "  heightlight synth brick -o wall.png --size 1024 --seed 7\n"
       "  heightlight synth bowl -o bowl.exr --size 256");

@@ -1,6 +1,7 @@
 #include "heightlight/synth.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "heightlight/error.h"
 #include "heightmap/synth_shapes.h"
@@ -15,13 +16,16 @@ struct Recipe {
   MakeShape make;
 };
 
-// Lowest to 0, highest to 1.
+// Lowest to 0, what is `range` above it to 1.
+Image<float> stretched(Image<float> image, float lowest, float range) {
+  for (float& height : image.values) height = range > 0 ? (height - lowest) / range : 0;
+  return image;
+}
+
 Image<float> stretched(Image<float> image) {
   const auto [lowest, highest] = std::minmax_element(image.values.begin(), image.values.end());
   const float low = *lowest;
-  const float range = *highest - low;
-  for (float& height : image.values) height = range > 0 ? (height - low) / range : 0;
-  return image;
+  return stretched(std::move(image), low, *highest - low);
 }
 
 template <Image<float> (*Make)(int)>
@@ -84,6 +88,30 @@ Image<float> synthesize(const std::string& shape, int size, std::uint64_t seed) 
     known += (known.empty() ? "" : ", ") + recipe.shape.name;
   }
   throw UsageError("there is no shape '" + shape + "'; known are " + known);
+}
+
+FbmRows::FbmRows(int size, std::uint64_t seed) : size_(size), seed_(seed) {
+  constexpr int kLargestSize = 65536;
+  constexpr int kAtOnce = 64;
+  if (size < 1 || size > kLargestSize) {
+    throw UsageError(
+        "size", std::to_string(size),
+        "a heightmap made by rows has 1 to " + std::to_string(kLargestSize) + " texels on a side");
+  }
+  lowest_ = std::numeric_limits<float>::infinity();
+  float highest = -lowest_;
+  for (int first = 0; first < size; first += kAtOnce) {
+    const Image<float> part =
+        synth::fbm_rows({.size = size, .first = first, .count = std::min(kAtOnce, size - first)}, seed);
+    const auto [low, high] = std::minmax_element(part.values.begin(), part.values.end());
+    lowest_ = std::min(lowest_, *low);
+    highest = std::max(highest, *high);
+  }
+  range_ = highest - lowest_;
+}
+
+Image<float> FbmRows::rows(int first, int count) const {
+  return stretched(synth::fbm_rows({.size = size_, .first = first, .count = count}, seed_), lowest_, range_);
 }
 
 }  // namespace heightlight

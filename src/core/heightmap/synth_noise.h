@@ -102,17 +102,31 @@ class Spots {
   std::uint64_t seed_;
 };
 
-/// The image of height(u, v) at the texel centres.
+/// Rows of an image of `size` × `size` texels.
+struct Rows {
+  int size = 0;
+  int first = 0;
+  int count = 0;
+};
+
+/// Those rows of the image of height(u, v) at the texel centres.
 template <class Height>
-Image<float> sample(int size, const Height& height) {
-  Image<float> image(size, size);
-  parallel_for(size, [&](std::int64_t i) {
+Image<float> sample_rows(const Rows& rows, const Height& height) {
+  Image<float> image(rows.size, rows.count);
+  parallel_for(rows.count, [&](std::int64_t i) {
     const int row = static_cast<int>(i);
-    for (int column = 0; column < size; ++column) {
-      image(row, column) = static_cast<float>(height((column + 0.5) / size, (row + 0.5) / size));
+    for (int column = 0; column < rows.size; ++column) {
+      image(row, column) =
+          static_cast<float>(height((column + 0.5) / rows.size, (rows.first + row + 0.5) / rows.size));
     }
   });
   return image;
+}
+
+/// All of them.
+template <class Height>
+Image<float> sample(int size, const Height& height) {
+  return sample_rows({.size = size, .first = 0, .count = size}, height);
 }
 
 }  // namespace heightlight::synth

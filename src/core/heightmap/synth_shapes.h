@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "heightlight/image.h"
+#include "heightmap/synth_noise.h"
 
 // The heightmaps behind synthesize(); each takes the size (and the seed, where it matters) and returns
 // heights whose meaning stands in heightlight/synth.h. The natural ones are not yet stretched to [0, 1].
@@ -20,6 +21,7 @@ Image<float> sines(int size);
 Image<float> solids(int size);
 
 Image<float> fbm(int size, std::uint64_t seed);
+Image<float> fbm_rows(const Rows& rows, std::uint64_t seed);
 Image<float> cobbles(int size, std::uint64_t seed);
 Image<float> brick(int size, std::uint64_t seed);
 Image<float> concrete(int size, std::uint64_t seed);

@@ -82,9 +82,10 @@ int choose_side(WindowGrid grid, int first_coarse, const BakeOptions& options) {
     if (needed <= options.memory) return side;
   }
   throw MemoryError("windows of " + std::to_string(grid.side) + " × " + std::to_string(grid.side) + " of " +
-                    std::to_string(grid.map_width) + " × " + std::to_string(grid.map_height) +
-                    " texels need " + format_byte_size(needed) + ", more than the " +
-                    format_byte_size(options.memory) + " of memory allowed");
+                        std::to_string(grid.map_width) + " × " + std::to_string(grid.map_height) +
+                        " texels need " + format_byte_size(needed) + ", more than the " +
+                        format_byte_size(options.memory) + " of memory allowed",
+                    needed - options.memory);
 }
 
 /// Takes a map's rows, from which its size is first known.

@@ -11,6 +11,7 @@
 #include "files/interrupt.h"
 #include "files/output_file.h"
 #include "heightlight/error.h"
+#include "visibility/reach_table.h"
 #include "windows/begin_work.h"
 #include "windows/steps.h"
 
@@ -158,7 +159,8 @@ void drop_former(const Work& work) {
 
 }  // namespace
 
-void check_windowed_options(const BakeOptions& options) {
+void check_windowed(const WindowedTask& task) {
+  const BakeOptions& options = task.options;
   const auto refuse = [](const char* option, const std::string& value, const char* what) {
     throw UsageError(option, value, std::string(what) + " cannot be baked window by window");
   };
@@ -169,25 +171,37 @@ void check_windowed_options(const BakeOptions& options) {
     if (definition_of(entry.map) && is_wanted(options, entry.map)) refuse("maps", entry.name, entry.name);
   }
   const bool bounces = is_wanted(options, MaterialMap::multibounce);
-  if (bounces && options.reach) refuse("max_distance", "", "multibounce beside maps with a maximum distance");
+  if (bounces && task.reach) refuse("max_distance", "", "multibounce beside maps with a maximum distance");
   if (bounces && options.below == BelowHorizontal::ground)
     refuse("below_horizontal", "ground", "multibounce under a sky that ends at the horizontal");
 }
+
+namespace {
+
+/// What hangs on the map, once it is known.
+Work with_reach(Work work) {
+  const WorkFacts& facts = work.state.facts;
+  if (work.task.reach) work.task.options.reach = work.task.reach(facts.spacing.x * facts.grid.map_width);
+  if (work.task.options.reach) check_reach(*work.task.options.reach);
+  return work;
+}
+
+}  // namespace
 
 Work join_work(WindowedTask task) {
   std::optional<WorkState> state = read_state(task.folder);
   if (!state || state->facts.request != task.options.request)
     throw file_error(task.folder, "holds no work of this bake");
-  return {.task = std::move(task), .state = std::move(*state)};
+  return with_reach({.task = std::move(task), .state = std::move(*state)});
 }
 
 Work open_work(WindowedTask task, int side) {
-  check_windowed_options(task.options);
+  check_windowed(task);
   std::optional<WorkState> state = read_state(task.folder);
   const bool goes_on =
       state && state->facts.request == task.options.request && (side == 0 || side == state->facts.grid.side);
-  if (!goes_on) return begin_work(std::move(task), side);
-  return {.task = std::move(task), .state = std::move(*state)};
+  if (!goes_on) return with_reach(begin_work(std::move(task), side));
+  return with_reach({.task = std::move(task), .state = std::move(*state)});
 }
 
 std::vector<int> pending_parts(Work& work) {

@@ -7,7 +7,7 @@
 namespace heightlight {
 
 /// Throws UsageError for what bakes in one piece alone can do.
-void check_windowed_options(const BakeOptions& options);
+void check_windowed(const WindowedTask& task);
 
 /// Opens the work folder of a task, or begins it (begin_work.h) where there is none, or one of another
 /// request. Of another process's work too: `side` counts where it begins.

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,8 +23,9 @@ namespace heightlight {
 struct WindowedTask {
   std::filesystem::path map;
   LoadOptions load = {};
-  BakeOptions options = {};
-  std::filesystem::path folder;
+  BakeOptions options = {};                       ///< those that depend on the map are set once it is known
+  std::function<Reach(double width)> reach = {};  ///< of the map's extent along x, where a reach is wanted
+  std::filesystem::path folder = {};
 };
 
 /// What all windows have in common.
