@@ -18,8 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kOrigin = "origin.json";
-
 /// A text at this place in JSON that somebody may have edited; empty where there is none.
 std::string text_at(const nlohmann::json& json, const char* pointer) {
   const nlohmann::json::json_pointer place(pointer);
@@ -42,8 +40,8 @@ nlohmann::ordered_json describe_origin(const Manifest& manifest) {
 void write_origin(const nlohmann::ordered_json& origin, const fs::path& folder,
                   const std::vector<fs::path>& inputs) {
   const std::string text = json_text(origin);
-  if (holds(folder / kOrigin, text)) return;
-  StagedFile file(folder / kOrigin, inputs);
+  if (holds(folder / kOriginFile, text)) return;
+  StagedFile file(folder / kOriginFile, inputs);
   write_bytes(file.path(), text);
   file.commit();
 }
@@ -51,9 +49,9 @@ void write_origin(const nlohmann::ordered_json& origin, const fs::path& folder,
 void check_origin(const nlohmann::ordered_json& origin, const fs::path& folder) {
   std::error_code ignored;
   if (!fs::is_directory(folder, ignored)) throw file_error(folder, "no such folder");
-  if (!fs::exists(folder / kOrigin, ignored))
-    throw file_error(folder, std::string("is no folder of a dataset: it has no ") + kOrigin);
-  const nlohmann::json found = read_json(folder / kOrigin);
+  if (!fs::exists(folder / kOriginFile, ignored))
+    throw file_error(folder, std::string("is no folder of a dataset: it has no ") + kOriginFile);
+  const nlohmann::json found = read_json(folder / kOriginFile);
   const nlohmann::json wanted(origin);
   const std::string version = text_at(found, "/version");
   if (version != HEIGHTLIGHT_VERSION) {

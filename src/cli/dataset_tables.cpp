@@ -9,6 +9,7 @@
 
 #include "base/digits.h"
 #include "cli/dataset_locks.h"
+#include "cli/dataset_origin.h"
 #include "files/evidence_json.h"
 #include "files/input_file.h"
 #include "files/interrupt.h"
@@ -126,6 +127,7 @@ void check_summary(const DatasetRun& run, const nlohmann::json& summary) {
 void refuse_to_replace(const std::vector<fs::path>& inputs, const fs::path& folder) {
   const InputGuard guard(inputs);
   for (const char* name : kTables) guard.check(folder / name);
+  guard.check(folder / kOriginFile);
 }
 
 void write_tables(const Json& origin, const std::vector<DatasetRun>& runs, const fs::path& folder,

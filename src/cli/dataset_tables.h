@@ -17,7 +17,7 @@ namespace heightlight {
 void write_tables(const nlohmann::ordered_json& origin, const std::vector<DatasetRun>& runs,
                   const std::filesystem::path& folder, const std::vector<std::filesystem::path>& inputs);
 
-/// Throws UsageError naming an input that these tables would replace.
+/// Throws UsageError naming an input that these tables, or the record of their origin, would replace.
 void refuse_to_replace(const std::vector<std::filesystem::path>& inputs, const std::filesystem::path& folder);
 
 /// Throws an exception of the JSON library where the summary of a run lacks what these tables tell of it.

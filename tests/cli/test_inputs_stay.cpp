@@ -70,6 +70,8 @@ TEST_CASE("albedos, curves and manifests are not replaced by results", "[cli]") 
   refuses(folder, "fit models.csv -o .", "models.csv");
   write_text(folder / "dataset.json", "{\"maps\": [{\"file\": \"map.png\"}]}");
   refuses(folder, "dataset dataset.json -o .", "dataset.json");
+  copy(folder, "dataset.json", "origin.json");
+  refuses(folder, "dataset origin.json -o .", "origin.json");
   write_text(folder / "study.json", "{\"maps\": [{\"file\": \"costs.csv\"}]}");
   write_text(folder / "costs.csv", "a map of that name");
   refuses(folder, "dataset study.json -o .", "costs.csv");
