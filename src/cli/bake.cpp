@@ -1,5 +1,7 @@
 #include <fmt/core.h>
 
+#include <array>
+#include <charconv>
 #include <cstdio>
 #include <memory>
 
@@ -21,6 +23,7 @@
 #include "files/printable.h"
 #include "files/staged_output.h"
 #include "heightlight/error.h"
+#include "windows/bake_window.h"
 #include "windows/windowed_bake.h"
 
 namespace heightlight {
@@ -120,10 +123,40 @@ BakeOutcome bake_by_windows(const BakeCommand& command, const BakeInput& input, 
   return bake_in_windows(std::move(task), command.windows.value_or(0), target);
 }
 
+/// COLUMN,ROW,WIDTH,HEIGHT.
+MapRect parse_window(const std::string& text) {
+  std::array<int, 4> numbers{};
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const auto [stop, fault] = std::from_chars(at, end, numbers[i]);
+    const bool goes_on = i + 1 < numbers.size();
+    if (fault != std::errc() || (goes_on ? stop == end || *stop != ',' : stop != end))
+      throw UsageError("window", text, "write COLUMN,ROW,WIDTH,HEIGHT, such as 2048,1024,512,512");
+    at = stop + 1;
+  }
+  return {.first_row = numbers[1], .first_column = numbers[0], .rows = numbers[3], .columns = numbers[2]};
+}
+
+/// A window of the map alone.
+BakeOutcome bake_one_window(const BakeCommand& command, const BakeInput& input, const InputGuard& guard,
+                            bool quiet) {
+  WindowedTask task = windowed_task(command, input);
+  const MapRect window = parse_window(command.window);
+  const std::string sha256 = sha256_of_file(input.path);
+  task.options.surface = surface_of(command, task.options, sha256);
+  task.options.request = request_of(command, task.options, sha256, "");
+  task.options.watch = terminal_watch(quiet);
+  const BakeTarget target{
+      .source = input.path, .inputs = guard, .folder = command.folder, .name = input.name};
+  return name_errors(input.path, [&] { return bake_window(task, window, target); });
+}
+
 /// In one piece where memory holds that, unless it is not to be; else window by window, where that can be.
 BakeOutcome bake_file(const BakeCommand& command, const BakeInput& input, const InputGuard& guard,
                       bool quiet) {
   return keep_promise(command.run, [&] {
+    if (!command.window.empty()) return bake_one_window(command, input, guard, quiet);
     if (command.windows) return bake_by_windows(command, input, guard, quiet);
     try {
       return bake_within(command, input, guard, quiet);
@@ -292,6 +325,12 @@ void add_bake_command(CLI::App& app) {
       ->expected(0, 1)
       ->default_val(0)
       ->type_name("SIDE");
+  command
+      ->add_option(
+          "--window", options->window,
+          "a part of the map alone, in texels from its upper left corner; what is around it is looked "
+          "at all the same")
+      ->type_name("COLUMN,ROW,WIDTH,HEIGHT");
   command->add_flag("--skip-existing", options->skip_existing,
                     "leave out maps that were baked as is asked for now, with all files still there");
   command

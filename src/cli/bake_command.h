@@ -30,6 +30,7 @@ struct BakeCommand {
   bool skip_existing = false;
   std::optional<int> windows = {};  ///< bake window by window, of so many texels a side; 0: as memory has it
   std::string pattern;
+  std::string window;  ///< COLUMN,ROW,WIDTH,HEIGHT; empty: the whole map
 };
 
 /// Reads the texts, all that does not depend on a map. Throws UsageError for what no map can be baked with.

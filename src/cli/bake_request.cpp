@@ -37,6 +37,7 @@ std::string request_of(const BakeCommand& command, const BakeOptions& options, c
   if (options.azimuth_convention)
     request["azimuth_convention"] = static_cast<int>(*options.azimuth_convention);
   if (!options.projection.empty()) request["projection"] = options.projection;
+  if (!command.window.empty()) request["window"] = command.window;
   if (const std::string light = light_key(command.light); !light.empty()) request["light"] = light;
   return request_key(request);
 }

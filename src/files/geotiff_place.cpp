@@ -90,6 +90,20 @@ void check_latitudes(const Georeference& place, int rows, std::string& fault) {
     fault = "its coordinates are said to be degrees, and its latitudes lie beyond the poles";
 }
 
+/// Makes the tags of the corner and the cell anew.
+void set_place_tags(Georeference& place) {
+  std::string fault;
+  const double half = read_geo_keys(place.tags, fault).point_samples ? 0.5 : 0;
+  std::erase_if(place.tags, [](const GeoTag& tag) {
+    return tag.number == kPixelScaleTag || tag.number == kTiePointTag || tag.number == kTransformationTag;
+  });
+  place.tags.push_back(make_tag(kPixelScaleTag, std::vector<double>{place.cell.x, place.cell.y, 0}));
+  if (!place.corner) return;
+  place.tags.push_back(
+      make_tag(kTiePointTag, std::vector<double>{0, 0, 0, (*place.corner)[0] + half * place.cell.x,
+                                                 (*place.corner)[1] - half * place.cell.y, 0}));
+}
+
 }  // namespace
 
 GeotiffPlace read_geotiff_place(const std::vector<GeoTag>& tags, int rows) {
@@ -120,18 +134,16 @@ Georeference shrink_place(const Georeference& place, int factor) {
   Georeference shrunk = place;
   if (factor == 1) return shrunk;
   shrunk.cell = {factor * place.cell.x, factor * place.cell.y};
-  std::erase_if(shrunk.tags, [](const GeoTag& tag) {
-    return tag.number == kPixelScaleTag || tag.number == kTiePointTag || tag.number == kTransformationTag;
-  });
-  const std::vector<double> scale{shrunk.cell.x, shrunk.cell.y, 0};
-  shrunk.tags.push_back(make_tag(kPixelScaleTag, scale));
-  if (!place.corner) return shrunk;
-  std::string fault;
-  const double half = read_geo_keys(place.tags, fault).point_samples ? 0.5 : 0;
-  shrunk.tags.push_back(
-      make_tag(kTiePointTag, std::vector<double>{0, 0, 0, (*place.corner)[0] + half * shrunk.cell.x,
-                                                 (*place.corner)[1] - half * shrunk.cell.y, 0}));
+  set_place_tags(shrunk);
   return shrunk;
+}
+
+Georeference crop_place(const Georeference& place, int row, int column) {
+  Georeference cropped = place;
+  if (!place.corner || (row == 0 && column == 0)) return cropped;
+  cropped.corner = {{(*place.corner)[0] + column * place.cell.x, (*place.corner)[1] - row * place.cell.y}};
+  set_place_tags(cropped);
+  return cropped;
 }
 
 }  // namespace heightlight

@@ -21,6 +21,9 @@ struct GeotiffPlace {
 /// poles.
 GeotiffPlace read_geotiff_place(const std::vector<GeoTag>& tags, int rows);
 
+/// The place of a part of the map that begins at a sample.
+Georeference crop_place(const Georeference& place, int row, int column);
+
 /// The same place for means of factor × factor samples.
 Georeference shrink_place(const Georeference& place, int factor);
 

@@ -98,16 +98,15 @@ void find_again(const Task& task, const std::vector<LightSystem>& systems,
 /// smaller the more it is missed by, and where the albedo has a texture, of which plans know nothing;
 /// whatever becomes of other totals. Whether any was.
 bool refine_totals(const Task& task, const std::vector<LightSystem>& systems, Checked& checked) {
-  constexpr double kByMuch = 1.4;
   const double wanted = task.request.accuracy.error;
   std::vector<std::size_t> little;
   std::vector<std::size_t> much;
   for (std::size_t i = 0; i < systems.size(); ++i) {
     const double reached = checked.checks[i].total_rmse / wanted;
-    if (reached > kMissed) (reached > kByMuch || systems[i].varying ? much : little).push_back(i);
+    if (reached > kMissed) (reached > kMissedByMuch || systems[i].varying ? much : little).push_back(i);
   }
-  if (!little.empty()) find_again(task, systems, little, 0.7, checked);
-  if (!much.empty()) find_again(task, systems, much, 0.5, checked);
+  if (!little.empty()) find_again(task, systems, little, kFiner, checked);
+  if (!much.empty()) find_again(task, systems, much, kMuchFiner, checked);
   return !little.empty() || !much.empty();
 }
 

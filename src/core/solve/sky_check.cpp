@@ -70,8 +70,10 @@ std::optional<SkyCheck> check_sky(const Surface& surface, const CheckedSky& sky,
 std::optional<SkyCheck> check_receivers_sky(const ExactWalker& walker,
                                             const std::function<CheckedReceiver(int, int)>& found,
                                             const SkyCheckOptions& options) {
-  const auto width = static_cast<std::uint64_t>(walker.surface().width());
-  const std::uint64_t texels = width * static_cast<std::uint64_t>(walker.surface().height());
+  const bool whole = options.rows == 0;
+  const auto width = static_cast<std::uint64_t>(whole ? walker.surface().width() : options.columns);
+  const std::uint64_t texels =
+      width * static_cast<std::uint64_t>(whole ? walker.surface().height() : options.rows);
   std::vector<Squares> all(kReceivers);
   std::atomic<bool> has_bent{false};
   std::atomic<bool> has_harmonics{false};
@@ -80,8 +82,8 @@ std::optional<SkyCheck> check_receivers_sky(const ExactWalker& walker,
       kReceivers,
       [&](std::int64_t i) {
         const std::uint64_t texel = hash_combine(options.seed + 3, static_cast<std::uint64_t>(i)) % texels;
-        const auto row = static_cast<int>(texel / width);
-        const auto column = static_cast<int>(texel % width);
+        const int row = options.first_row + static_cast<int>(texel / width);
+        const int column = options.first_column + static_cast<int>(texel % width);
         const ExactSky exact = find_exact_sky(walker, row, column, options.reach, options.below);
         if (std::isnan(exact.sky_view_factor)) return;
         const CheckedReceiver receiver = found(row, column);

@@ -34,6 +34,10 @@ struct SkyCheckOptions {
   std::optional<Reach> reach = {};
   BelowHorizontal below = BelowHorizontal::sky;
   std::uint64_t seed = 1;
+  int first_row = 0;  ///< of the part of the map that the receivers are picked from
+  int first_column = 0;
+  int rows = 0;  ///< 0: all of it
+  int columns = 0;
   Watch watch = {};
 };
 

@@ -36,6 +36,11 @@ bool keeps_sky(const Wanted& wanted);
 
 /// An error that is found to be more than so many times the one wanted is missed.
 constexpr double kMissed = 1.15;
+constexpr double kMissedByMuch = 1.4;
+
+/// Of the error wanted, for how much of it totals that miss it are found once more.
+constexpr double kFiner = 0.7;
+constexpr double kMuchFiner = 0.5;
 
 /// Azimuths of exact slices where nobody says.
 constexpr int kExactAzimuths = 128;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "bake/baked_map.h"
 #include "bake/material.h"
 #include "base/parallel.h"
 #include "files/image_file.h"

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -8,9 +9,9 @@
 #include "solve/sky_check.h"
 #include "transport/horizon_check.h"
 #include "window/paged_ground.h"
-#include "windows/check_file.h"
 #include "windows/sky_maps.h"
 #include "windows/steps.h"
+#include "windows/work_check.h"
 #include "windows/work_json.h"
 
 namespace heightlight {
@@ -19,7 +20,10 @@ namespace {
 /// Of heights, A and totals, each thread keeps so much.
 constexpr std::uint64_t kPagedBytes = 24ULL << 20;
 
-std::filesystem::path check_path(const Work& work) { return work.task.folder / "check" / "0000.json"; }
+/// Of the first round, or of the one that refines.
+std::filesystem::path check_path(const Work& work, bool refined) {
+  return work.task.folder / "check" / (refined ? "0001.json" : "0000.json");
+}
 
 /// A map of the work, value by value.
 class PagedWindows {
@@ -80,15 +84,14 @@ std::vector<double> sample_of_check(const Work& work, const PagedWindows& sky, c
 std::vector<HorizonCheck> check_totals(const Work& work, const ExactWalker& walker,
                                        const StoredGround& ground) {
   const BakeOptions& options = work.task.options;
-  const PagedWindows sky(sky_folder(work), 0);
-  const PagedWindows ambient(sky_folder(work), 1);
+  const PagedWindows sky(lighting_folder(work), 0);
+  const PagedWindows ambient(lighting_folder(work), 1);
   std::vector<std::unique_ptr<PagedWindows>> totals;
   FoundMaps found{.sky = [&sky](std::size_t i) { return sky.at(i); },
                   .ambient = [&ambient](std::size_t i) { return ambient.at(i); }};
-  for (std::size_t c = 0; c < total_channels(work); ++c) {
-    const int k = kFieldMaps * static_cast<int>(c);
-    const PagedWindows& total =
-        *totals.emplace_back(std::make_unique<PagedWindows>(field_folder(work, work.state.gather), k));
+  for (const std::size_t c : channels_at_hand(work)) {
+    const StoredPlace place = total_place(work, c);
+    const PagedWindows& total = *totals.emplace_back(std::make_unique<PagedWindows>(place.folder, place.k));
     const double albedo = options.albedo.constant[c];
     found.totals.push_back({.total = [&total](std::size_t i) { return total.at(i); },
                             .albedo = [albedo](std::size_t) { return albedo; }});
@@ -144,6 +147,19 @@ SkyCheck sky_check_of(const nlohmann::json& json) {
   return check;
 }
 
+std::vector<HorizonCheck> totals_of(const nlohmann::json& found) {
+  std::vector<HorizonCheck> checks;
+  for (const nlohmann::json& check : found.at("totals")) {
+    checks.push_back({.receivers = check.at("receivers"),
+                      .azimuths = check.at("azimuths"),
+                      .ambient_rmse = check.at("ambient_rmse"),
+                      .sky_rmse = check.at("sky_rmse"),
+                      .total_rmse = check.at("total_rmse"),
+                      .total_standard_error = check.at("total_standard_error")});
+  }
+  return checks;
+}
+
 }  // namespace
 
 void check_receivers(Work& work) {
@@ -159,14 +175,15 @@ void check_receivers(Work& work) {
     for (const HorizonCheck& check : check_totals(work, walker, ground))
       found["totals"].push_back(to_json(check));
   }
-  const ExactWalker walker(header, kSkyCheckAzimuths, ground, bounds_of(work, header), facts.first_coarse);
-  if (const std::optional<SkyCheck> check = check_maps(work, walker)) found["sky"] = to_json(*check);
-  replace_json(check_path(work), found);
+  if (work.state.refined.empty()) {
+    const ExactWalker walker(header, kSkyCheckAzimuths, ground, bounds_of(work, header), facts.first_coarse);
+    if (const std::optional<SkyCheck> check = check_maps(work, walker)) found["sky"] = to_json(*check);
+  }
+  replace_json(check_path(work, !work.state.refined.empty()), found);
 }
 
-Evidence read_evidence(const Work& work) {
+Evidence evidence_of_plan(const Work& work) {
   const BakeOptions& options = work.task.options;
-  const nlohmann::json found = read_json(check_path(work));
   Evidence evidence;
   evidence.error_wanted = options.error;
   evidence.seed = options.seed;
@@ -174,19 +191,68 @@ Evidence read_evidence(const Work& work) {
   evidence.azimuths = work.state.plan->sky.walk.azimuths;
   evidence.gathers = work.state.gather;
   evidence.threads = thread_count();
-  for (const nlohmann::json& check : found.at("totals")) {
-    evidence.total_checks.push_back({.receivers = check.at("receivers"),
-                                     .azimuths = check.at("azimuths"),
-                                     .ambient_rmse = check.at("ambient_rmse"),
-                                     .sky_rmse = check.at("sky_rmse"),
-                                     .total_rmse = check.at("total_rmse"),
-                                     .total_standard_error = check.at("total_standard_error")});
+  return evidence;
+}
+
+std::vector<HorizonCheck> read_total_checks(const Work& work) {
+  std::vector<HorizonCheck> checks = totals_of(read_json(check_path(work, false)));
+  if (work.state.refined.empty()) return checks;
+  const std::vector<HorizonCheck> again = totals_of(read_json(check_path(work, true)));
+  for (std::size_t i = 0; i < again.size(); ++i) {
+    HorizonCheck& check = checks[work.state.refined[i]];
+    check.total_rmse = again[i].total_rmse;
+    check.total_standard_error = again[i].total_standard_error;
   }
+  return checks;
+}
+
+Evidence read_evidence(const Work& work) {
+  Evidence evidence = evidence_of_plan(work);
+  evidence.refined = !work.state.refined.empty();
+  const std::vector<HorizonCheck> checks = read_total_checks(work);
+  if (!checks.empty()) {
+    evidence.sky_rmse = checks[0].sky_rmse;
+    evidence.total_checks.push_back(*std::max_element(
+        checks.begin(), checks.end(),
+        [](const HorizonCheck& a, const HorizonCheck& b) { return a.total_rmse < b.total_rmse; }));
+  }
+  const nlohmann::json found = read_json(check_path(work, false));
   if (found.contains("sky")) {
     evidence.sky_check = sky_check_of(found.at("sky"));
-    evidence.sky_rmse = evidence.sky_check->sky_view_factor;
+    if (!evidence.sky_rmse) evidence.sky_rmse = evidence.sky_check->sky_view_factor;
   }
   return evidence;
+}
+
+std::optional<SkyCheck> check_window_sky(const Work& work, const Material& material, const MapRect& window) {
+  const WorkFacts& facts = work.state.facts;
+  const BakeOptions& options = work.task.options;
+  const Surface header = header_of(facts);
+  const WindowFiles heights(heights_folder(work), 0);
+  const PagedGround ground(heights, facts.spacing, facts.boundary, kPagedBytes);
+  const ExactWalker walker(header, kSkyCheckAzimuths, ground, bounds_of(work, header), facts.first_coarse);
+  const WindowPlace place = place_in_map(*material.surface);
+  const Results& results = material.results;
+  const auto found = [&](int row, int column) {
+    const std::size_t texel =
+        material.surface->map.height.index(row - place.first_row, column - place.first_column);
+    CheckedReceiver receiver{.ambient_occlusion = results.ambient_occlusion.values[texel],
+                             .sky_view_factor = results.sky_view_factor.values[texel]};
+    if (results.moments.first.size() > 0)
+      receiver.moments.first = {1, 1, results.moments.first.values[texel]};
+    if (results.moments.second.size() > 0)
+      receiver.moments.second = {1, 1, results.moments.second.values[texel]};
+    return receiver;
+  };
+  return check_receivers_sky(walker, found,
+                             {.reach = options.reach,
+                              .below = options.below,
+                              .seed = options.seed,
+                              .first_row = window.first_row,
+                              .first_column = window.first_column,
+                              .rows = window.rows,
+                              .columns = window.columns,
+                              .watch = options.watch});
 }
 
 }  // namespace heightlight

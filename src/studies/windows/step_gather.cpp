@@ -35,7 +35,7 @@ Image<Vector3> normals_of_row(const Work& work, const StoredMap& heights, int ro
 
 SeenStrip read_strip(const Work& work) {
   const WindowGrid& grid = work.state.facts.grid;
-  const WindowFiles sky(sky_folder(work), 0);
+  const WindowFiles sky(lighting_folder(work), 0);
   const WindowFiles heights(heights_folder(work), 0);
   const std::vector<int> rows = seen_rows(grid.map_height);
   const auto count = static_cast<int>(rows.size());
@@ -52,7 +52,7 @@ SeenStrip read_strip(const Work& work) {
 
 std::vector<double> sample_sky(const Work& work) {
   const WindowGrid& grid = work.state.facts.grid;
-  const WindowFiles sky(sky_folder(work), 0);
+  const WindowFiles sky(lighting_folder(work), 0);
   std::vector<double> sample;
   const std::int64_t texels = std::int64_t{grid.map_width} * grid.map_height;
   for (const std::size_t texel : SkyClasses::sample_texels(texels, kSkyClassesSeed)) {
@@ -64,8 +64,9 @@ std::vector<double> sample_sky(const Work& work) {
   return sample;
 }
 
-LightSystem system_of(const Work& work, std::size_t channel) {
-  return {.albedo = work.task.options.albedo.constant[channel]};
+/// Of the channels that are gathered, the one of that number.
+LightSystem system_of(const Work& work, std::size_t number) {
+  return {.albedo = work.task.options.albedo.constant[channels_at_hand(work)[number]]};
 }
 
 /// What the gather at hand looks at of a channel: made of what the last one left, or of A before the first.
@@ -75,7 +76,7 @@ class Radiosity : public StoredMap {
       : albedo_(system_of(work, channel).albedo),
         kept_(work.state.courses[channel].kept),
         first_(work.state.gather == 0),
-        irradiance_(first_ ? sky_folder(work) : field_folder(work, work.state.gather),
+        irradiance_(first_ ? lighting_folder(work) : field_folder(work, work.state.gather),
                     first_ ? 0 : kFieldMaps * static_cast<int>(channel)),
         before_(field_folder(work, work.state.gather), kFieldMaps * static_cast<int>(channel) + 1) {}
 
@@ -152,11 +153,12 @@ std::vector<std::vector<std::size_t>> groups_of(const Work& work) {
 void begin_courses(Work& work) {
   const SeenStrip strip = read_strip(work);
   const double deep_share = deep_surface_share(strip.sky, strip.surface);
-  const GatherPlan& plan = work.state.plan->gather;
-  const ProgressiveGoal goal{.error = work.task.options.error,
+  const GatherPlan& plan = plan_at_hand(work).gather;
+  const ProgressiveGoal goal{.error = error_at_hand(work),
                              .last_azimuths = plan.walk.azimuths,
                              .planned_unevenness = plan.unevenness};
-  for (std::size_t c = 0; c < total_channels(work); ++c) {
+  work.state.courses.clear();
+  for (std::size_t c = 0; c < channels_at_hand(work).size(); ++c) {
     const LightSystem system = system_of(work, c);
     const double found = unevenness(system, strip.sky, strip.surface);
     work.state.courses.push_back(
@@ -180,9 +182,9 @@ void find_window_light(Work& work, int window) {
 }
 
 void gather_window(Work& work, int window) {
-  const WalkOptions& walk = work.state.plan->gather.walk;
+  const WalkOptions& walk = plan_at_hand(work).gather.walk;
   const Surface surface = surface_of_window(work, window, {walk});
-  const Map sky = read_window(sky_folder(work), window, 0);
+  const Map sky = read_window(lighting_folder(work), window, 0);
   const MapGather gather(surface, {}, walk);
   const SkyClasses classes(work.state.class_sample);
   const Watch silent{.tell = {}, .stopped = work.task.options.watch.stopped};

@@ -1,3 +1,5 @@
+#include "windows/step_plan.h"
+
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -13,11 +15,9 @@
 namespace heightlight {
 namespace {
 
-/// Texels of a crop's side: room for light to go astray in, and little beside the map.
-constexpr int kCropSide = 1024;
-
 std::filesystem::path plan_file(const Work& work, int crop) {
-  return work.task.folder / "plan" / fmt::format("{:04}.json", crop);
+  return work_folder(work, work.state.refined.empty() ? "plan" : "refined_plan").path /
+         fmt::format("{:04}.json", crop);
 }
 
 /// Mean of what the highest of blocks have above their means.
@@ -53,7 +53,8 @@ HorizonPlan find_plan(const Work& work, const Surface& surface) {
   const SkyWanted moments = sky_wanted(options);
   Request request;
   request.accuracy = {.error = options.error, .azimuths = options.azimuths, .seed = options.seed};
-  const HorizonGoal goal = plan_goal(request, moments.first);
+  HorizonGoal goal = plan_goal(request, moments.first);
+  goal.error = error_at_hand(work);
   HorizonPlan plan;
   if (total_channels(work) > 0) {
     plan = plan_horizon_transport(surface, goal, {}, options.watch).plan;
@@ -68,9 +69,14 @@ HorizonPlan find_plan(const Work& work, const Surface& surface) {
   return plan;
 }
 
+/// Of what gathers cost, as far as plans differ.
 double walk_cost(const WalkOptions& walk) { return double{1} * walk.azimuths * (20 + walk.fineness); }
 
 }  // namespace
+
+HorizonPlan plan_on(const Work& work, const MapRect& crop) {
+  return find_plan(work, crop_surface(work, crop));
+}
 
 std::vector<MapRect> plan_crops(Work& work) {
   const WindowGrid& grid = work.state.facts.grid;
@@ -92,8 +98,8 @@ std::vector<MapRect> plan_crops(Work& work) {
 }
 
 void plan_on_crop(Work& work, int crop) {
-  const Surface surface = crop_surface(work, plan_crops(work)[static_cast<std::size_t>(crop)]);
-  replace_json(plan_file(work, crop), to_json(find_plan(work, surface)));
+  const HorizonPlan plan = plan_on(work, plan_crops(work)[static_cast<std::size_t>(crop)]);
+  replace_json(plan_file(work, crop), to_json(plan));
 }
 
 HorizonPlan choose_plan(Work& work) {

@@ -20,9 +20,10 @@ Material material_of_window(const Work& work, int window, const Surface& surface
   material.results.sky_view_factor = std::move(sky.sky_view_factor);
   material.results.ambient_occlusion = std::move(sky.ambient_occlusion);
   material.results.moments = std::move(sky.moments);
-  for (std::size_t c = 0; c < total_channels(work); ++c)
-    material.totals.push_back(
-        read_window(field_folder(work, work.state.gather), window, kFieldMaps * static_cast<int>(c)));
+  for (std::size_t c = 0; c < total_channels(work); ++c) {
+    const StoredPlace total = total_place(work, c);
+    material.totals.push_back(read_window(total.folder, window, total.k));
+  }
   const Request request = material_request(options, azimuth_convention(options, surface.map.boundary));
   if (!request.wanted.horizon_rad.empty()) {
     material.results.horizons = walk_horizons(surface, {}, work.state.plan->sky.walk,

@@ -11,9 +11,10 @@
 #include "files/interrupt.h"
 #include "files/output_file.h"
 #include "heightlight/error.h"
-#include "visibility/reach_table.h"
+#include "solve/solver.h"
 #include "windows/begin_work.h"
 #include "windows/steps.h"
+#include "windows/work_check.h"
 
 namespace heightlight {
 namespace {
@@ -57,19 +58,20 @@ int count_parts(Work& work) {
 
 /// Where the file of a part is when it is done.
 fs::path part_file(const Work& work, int part) {
+  const bool refines = !work.state.refined.empty();
   switch (work.state.step) {
     case WorkStep::coarse:
       return coarse_folder(work).file(part);
     case WorkStep::plan:
-      return work.task.folder / "plan" / fmt::format("{:04}.json", part);
+      return work_folder(work, refines ? "refined_plan" : "plan").path / fmt::format("{:04}.json", part);
     case WorkStep::sky:
-      return sky_folder(work).file(part);
+      return lighting_folder(work).file(part);
     case WorkStep::light:
       return light_folder(work).file(part);
     case WorkStep::gather:
       return field_folder(work, work.state.gather + 1).file(part);
     case WorkStep::check:
-      return work.task.folder / "check" / "0000.json";
+      return work.task.folder / "check" / (refines ? "0001.json" : "0000.json");
     case WorkStep::textures:
       return textures_folder(work).file(part);
     case WorkStep::done:
@@ -82,6 +84,14 @@ void make_folder(const fs::path& folder) {
   std::error_code failure;
   fs::create_directories(folder, failure);
   if (failure) throw output_error(folder, failure.message());
+}
+
+/// Where it was moved already, by a process that was killed afterwards, nothing is left to do.
+void move_folder(const fs::path& from, const fs::path& to) {
+  std::error_code failure;
+  if (!fs::exists(from, failure)) return;
+  fs::rename(from, to, failure);
+  if (failure) throw output_error(to, failure.message());
 }
 
 /// What is not needed any more.
@@ -105,7 +115,7 @@ void end_gathers(Work& work) {
   for (std::size_t c = 0; c < work.state.courses.size() && k < kTellingGathers; ++c) {
     GatherCourse& course = work.state.courses[c];
     if (azimuths_of_gather(course, k) > 0)
-      end_gather(k, change_of_gather(work, c), true, work.task.options.error, course);
+      end_gather(k, change_of_gather(work, c), true, error_at_hand(work), course);
   }
   ++work.state.gather;
   const bool all_ended =
@@ -118,13 +128,38 @@ void end_gathers(Work& work) {
   }
 }
 
+/// Totals that miss the error are found once more, as find_totals does, but all of them for the same share of
+/// it.
+void end_check(Work& work) {
+  work.state.step = WorkStep::textures;
+  if (!work.state.refined.empty() || total_channels(work) == 0) return;
+  const std::vector<HorizonCheck> checks = read_total_checks(work);
+  std::vector<std::size_t> missed;
+  double share = 1;
+  for (std::size_t c = 0; c < checks.size(); ++c) {
+    const double reached = checks[c].total_rmse / work.task.options.error;
+    if (checks[c].receivers == 0 || !(reached > kMissed)) continue;
+    missed.push_back(c);
+    share = std::min(share, reached > kMissedByMuch ? kMuchFiner : kFiner);
+  }
+  if (missed.empty()) return;
+  move_folder(field_folder(work, work.state.gather).path, work_folder(work, "totals").path);
+  work.state.refined = missed;
+  work.state.share = share;
+  work.state.gather = 0;
+  work.state.courses.clear();
+  work.state.step = WorkStep::plan;
+  make_folder(work_folder(work, "refined_plan").path);
+  make_folder(lighting_folder(work).path);
+}
+
 void advance(Work& work) {
   switch (work.state.step) {
     case WorkStep::coarse:
       work.state.step = WorkStep::plan;
       return;
     case WorkStep::plan:
-      work.state.plan = choose_plan(work);
+      (work.state.refined.empty() ? work.state.plan : work.state.refined_plan) = choose_plan(work);
       work.state.step = WorkStep::sky;
       return;
     case WorkStep::sky:
@@ -142,7 +177,7 @@ void advance(Work& work) {
       end_gathers(work);
       return;
     case WorkStep::check:
-      work.state.step = WorkStep::textures;
+      end_check(work);
       return;
     default:
       work.state.step = WorkStep::done;
@@ -151,9 +186,11 @@ void advance(Work& work) {
 
 /// Files of gathers that later ones do not read.
 void drop_former(const Work& work) {
+  Work former = work;
   for (int k = 0; k < work.state.gather; ++k) {
-    drop_folder(work_folder(work, "light_" + std::to_string(k)).path);
-    drop_folder(field_folder(work, k).path);
+    former.state.gather = k;
+    drop_folder(light_folder(former).path);
+    drop_folder(field_folder(former, k).path);
   }
 }
 
@@ -180,9 +217,7 @@ namespace {
 
 /// What hangs on the map, once it is known.
 Work with_reach(Work work) {
-  const WorkFacts& facts = work.state.facts;
-  if (work.task.reach) work.task.options.reach = work.task.reach(facts.spacing.x * facts.grid.map_width);
-  if (work.task.options.reach) check_reach(*work.task.options.reach);
+  take_reach(work);
   return work;
 }
 

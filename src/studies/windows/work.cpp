@@ -1,8 +1,10 @@
 #include "windows/work.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "bake/material.h"
+#include "visibility/reach_table.h"
 
 namespace heightlight {
 
@@ -18,12 +20,47 @@ WindowFolder coarse_folder(const Work& work) {
 
 WindowFolder sky_folder(const Work& work) { return work_folder(work, "sky"); }
 
+namespace {
+
+bool is_refining(const Work& work) { return !work.state.refined.empty(); }
+
+std::string numbered(const Work& work, const std::string& name, int number) {
+  return (is_refining(work) ? "refined_" : "") + name + "_" + std::to_string(number);
+}
+
+}  // namespace
+
+WindowFolder lighting_folder(const Work& work) {
+  return is_refining(work) ? work_folder(work, "refined_sky") : sky_folder(work);
+}
+
 WindowFolder light_folder(const Work& work) {
-  return work_folder(work, "light_" + std::to_string(work.state.gather), work.state.facts.first_coarse);
+  return work_folder(work, numbered(work, "light", work.state.gather), work.state.facts.first_coarse);
 }
 
 WindowFolder field_folder(const Work& work, int gathers) {
-  return work_folder(work, "field_" + std::to_string(gathers));
+  return work_folder(work, numbered(work, "field", gathers));
+}
+
+StoredPlace total_place(const Work& work, std::size_t channel) {
+  const std::vector<std::size_t>& refined = work.state.refined;
+  const auto at = std::find(refined.begin(), refined.end(), channel);
+  const WindowFolder found = field_folder(work, work.state.gather);
+  if (at != refined.end()) return {found, kFieldMaps * static_cast<int>(at - refined.begin())};
+  return {refined.empty() ? found : work_folder(work, "totals"), kFieldMaps * static_cast<int>(channel)};
+}
+
+const HorizonPlan& plan_at_hand(const Work& work) {
+  return work.state.refined_plan ? *work.state.refined_plan : *work.state.plan;
+}
+
+double error_at_hand(const Work& work) { return work.state.share * work.task.options.error; }
+
+std::vector<std::size_t> channels_at_hand(const Work& work) {
+  if (is_refining(work)) return work.state.refined;
+  std::vector<std::size_t> all(total_channels(work));
+  std::iota(all.begin(), all.end(), 0);
+  return all;
 }
 
 WindowFolder textures_folder(const Work& work) { return work_folder(work, "textures"); }
@@ -46,6 +83,10 @@ MapParts parts_of_map(Work& work, const StoredMap& heights) {
 }
 
 Surface surface_of_window(Work& work, int window, const std::vector<WalkOptions>& walks) {
+  return surface_at(work, work.state.facts.grid.place(window), walks);
+}
+
+Surface surface_at(Work& work, const WindowPlace& place, const std::vector<WalkOptions>& walks) {
   const WindowFiles heights(heights_folder(work), 0);
   const MapParts parts = parts_of_map(work, heights);
   WindowReach reach;
@@ -53,7 +94,13 @@ Surface surface_of_window(Work& work, int window, const std::vector<WalkOptions>
     const WindowReach own = window_reach(parts, walk);
     reach = {std::max(reach.margin, own.margin), std::max(reach.levels, own.levels)};
   }
-  return window_surface(parts, work.state.facts.grid.place(window), reach);
+  return window_surface(parts, place, reach);
+}
+
+void take_reach(Work& work) {
+  const WorkFacts& facts = work.state.facts;
+  if (work.task.reach) work.task.options.reach = work.task.reach(facts.spacing.x * facts.grid.map_width);
+  if (work.task.options.reach) check_reach(*work.task.options.reach);
 }
 
 std::size_t total_channels(const Work& work) {

@@ -26,6 +26,7 @@ struct WindowedTask {
   BakeOptions options = {};                       ///< those that depend on the map are set once it is known
   std::function<Reach(double width)> reach = {};  ///< of the map's extent along x, where a reach is wanted
   std::filesystem::path folder = {};
+  int halo = 256;  ///< texels around a single window (bake_window.h) in which its own light is found, too
 };
 
 /// What all windows have in common.
@@ -63,7 +64,12 @@ struct WorkState {
   WorkStep step = WorkStep::coarse;
   int gather = 0;  ///< k of the gather at hand
   std::optional<HorizonPlan> plan = {};
-  std::vector<GatherCourse> courses = {};  ///< per channel of the total
+  /// Channels of the total that missed the error, and are found once more, for a share of it: with a plan and
+  /// an A of their own. Empty before.
+  std::vector<std::size_t> refined = {};
+  double share = 1;
+  std::optional<HorizonPlan> refined_plan = {};
+  std::vector<GatherCourse> courses = {};  ///< per channel that is gathered
   std::vector<double> class_sample = {};   ///< A of the receivers that classes are made by
 };
 
@@ -88,16 +94,39 @@ WindowFolder coarse_folder(const Work& work);
 WindowFolder sky_folder(const Work& work);
 /// Of the gather at hand: the coarse radiosity per channel.
 WindowFolder light_folder(const Work& work);
+/// The sky that totals are found under, of which A comes first: that of the maps, until they are refined.
+WindowFolder lighting_folder(const Work& work);
 /// After so many gathers: E_k, E_{k−1}, N and W per channel, kFieldMaps of them; there is none of 0.
 constexpr int kFieldMaps = 4;
 WindowFolder field_folder(const Work& work, int gathers);
 WindowFolder textures_folder(const Work& work);
+
+/// A map in a folder.
+struct StoredPlace {
+  WindowFolder folder;
+  int k = 0;
+};
+/// The total of a channel, once it is found.
+StoredPlace total_place(const Work& work, std::size_t channel);
+
+/// What is walked by at hand: the refined plan, when totals are refined.
+const HorizonPlan& plan_at_hand(const Work& work);
+/// RMSE that is wanted at hand.
+double error_at_hand(const Work& work);
+/// Channels that are gathered at hand: all, or those that are refined.
+std::vector<std::size_t> channels_at_hand(const Work& work);
 
 /// The map by its parts, with coarse levels that are read when first asked for. `heights` must outlive it.
 MapParts parts_of_map(Work& work, const StoredMap& heights);
 
 /// A window's surface, for such walks.
 Surface surface_of_window(Work& work, int window, const std::vector<WalkOptions>& walks);
+
+/// The same of any place in the map.
+Surface surface_at(Work& work, const WindowPlace& place, const std::vector<WalkOptions>& walks);
+
+/// Sets the reach that is wanted, once the map is known. Throws UsageError for one out of its range.
+void take_reach(Work& work);
 
 /// Channels of the total that is wanted; 0 where none is.
 std::size_t total_channels(const Work& work);

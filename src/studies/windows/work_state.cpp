@@ -93,6 +93,9 @@ WorkState state_of(const nlohmann::json& json) {
                   .step = static_cast<WorkStep>(json.at("step").get<int>()),
                   .gather = json.at("gather")};
   if (json.contains("plan")) state.plan = plan_of(json.at("plan"));
+  if (json.contains("refined_plan")) state.refined_plan = plan_of(json.at("refined_plan"));
+  json.at("refined").get_to(state.refined);
+  json.at("share").get_to(state.share);
   for (const nlohmann::json& course : json.at("courses")) state.courses.push_back(course_of(course));
   json.at("class_sample").get_to(state.class_sample);
   return state;
@@ -118,9 +121,12 @@ void write_state(const std::filesystem::path& folder, const WorkState& state) {
                {"facts", to_json(state.facts)},
                {"step", static_cast<int>(state.step)},
                {"gather", state.gather},
+               {"refined", state.refined},
+               {"share", state.share},
                {"courses", Json::array()},
                {"class_sample", state.class_sample}};
   if (state.plan) json["plan"] = to_json(*state.plan);
+  if (state.refined_plan) json["refined_plan"] = to_json(*state.refined_plan);
   for (const GatherCourse& course : state.courses) json["courses"].push_back(to_json(course));
   replace_json(folder / kStateFile, json);
 }

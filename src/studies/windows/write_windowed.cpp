@@ -2,9 +2,9 @@
 #include <system_error>
 
 #include "bake/baked_files.h"
-#include "windows/check_file.h"
 #include "windows/sky_maps.h"
 #include "windows/windowed_bake.h"
+#include "windows/work_check.h"
 
 namespace heightlight {
 namespace {

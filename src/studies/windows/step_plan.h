@@ -1,0 +1,13 @@
+#pragma once
+
+#include "windows/work.h"
+
+namespace heightlight {
+
+/// Texels of a crop's side: room for light to go astray in, and little beside the map.
+constexpr int kCropSide = 1024;
+
+/// The plan of a crop, as a map of its own.
+HorizonPlan plan_on(const Work& work, const MapRect& crop);
+
+}  // namespace heightlight
