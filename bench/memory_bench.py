@@ -54,6 +54,7 @@ def main() -> int:
     parser.add_argument("--sizes", default="512,1024,2048,4096")
     parser.add_argument("--memory", default="200M,300M,500M,1G,2G,4G,8G")
     parser.add_argument("--shapes", default="brick,fbm")
+    parser.add_argument("--commands", default=",".join(COMMANDS), help="of them (%(default)s)")
     parser.add_argument("--threads", default="2")
     options = parser.parse_args()
     amounts = options.memory.split(",")
@@ -64,8 +65,10 @@ def main() -> int:
         folder = Path(name)
         for shape in options.shapes.split(","):
             for size in options.sizes.split(","):
-                subprocess.run([options.program.resolve(), "synth", shape, "--size", size, "-o", folder / "map.png"], check=True)
-                for title, words in COMMANDS.items():
+                synth = ["synth", shape, "--size", size, "-o", "map.png"]
+                subprocess.run([options.program.resolve(), *synth], cwd=folder, check=True)
+                for title in options.commands.split(","):
+                    words = COMMANDS[title]
                     line = [words[0], "map.png", "-o", "out", "--threads", options.threads, "--quiet", *words[1:]]
                     cells = [measure(options.program.resolve(), line, memory, folder) for memory in amounts]
                     worst = max([worst, *(share for _, share in cells)])

@@ -9,8 +9,8 @@
 #include "visibility/height_mips.h"
 #include "visibility/horizon_sky.h"
 
-// What is held at once, from the types that hold it. The worst moment is the last gather, or the check after
-// it: the surface and its pyramids are there all the time, the sky's maps from then on.
+// What is held at once, from the types that hold it: the surface, its pyramids and what has been found are
+// there all the time; planning, solving for totals and bouncing come one after the other.
 
 namespace heightlight {
 namespace {
@@ -31,19 +31,59 @@ constexpr std::uint64_t kSolverVectors = 10 + 3;
 /// Maps of a system on its way: E twice, sums of what was seen and of its weights.
 constexpr std::uint64_t kSystemMaps = 4;
 
-/// Per texel, of the bounces and totals: their vectors beside the operator.
-std::uint64_t light_bytes(const Request& request) {
+bool by_walks(const Request& request) { return request.accuracy.visibility == Visibility::horizon_walks; }
+
+/// Systems that are solved: those of totals, and the one at kSeenAlbedo.
+std::uint64_t count_systems(const Wanted& wanted) {
+  return channels_of(wanted) + (wanted.seen || wanted.bounces > 0 ? 1 : 0);
+}
+
+/// Per texel, of what bounces and totals leave behind.
+std::uint64_t found_light_bytes(const Request& request) {
   const Wanted& wanted = request.wanted;
-  const std::uint64_t systems = channels_of(wanted) + (wanted.seen || wanted.bounces > 0 ? 1 : 0);
-  const bool walks = request.accuracy.visibility == Visibility::horizon_walks;
-  std::uint64_t bytes = kVector * systems + (wanted.seen ? 2 * kMap : 0);
-  const std::uint64_t solving = walks ? systems * kSystemMaps * kMap : kSolverVectors * kVector;
-  // E_b, E_{b+1}, their sum and what walks keep (E_{b−1} and L twice, sums, a field) or the tail: they are
-  // gone when totals are solved for.
-  const std::uint64_t bouncing = wanted.bounces > 0 ? 6 * kVector + 2 * kMap : 0;
-  bytes += std::max(solving, bouncing);
-  if (wanted.bounces > 0 && !request.sink) bytes += kVector * static_cast<std::uint64_t>(wanted.bounces + 1);
-  return bytes;
+  const std::uint64_t stored =
+      wanted.bounces > 0 && !request.sink ? static_cast<std::uint64_t>(wanted.bounces + 1) : 0;
+  return kVector * (count_systems(wanted) + stored) + (wanted.seen ? 2 * kMap : 0);
+}
+
+/// Of solving for totals: the systems, with the heights that gathers look at and the fields that one reads at
+/// once.
+std::uint64_t solving_bytes(int width, int height, const Request& request) {
+  const auto texels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+  const std::uint64_t systems = count_systems(request.wanted);
+  if (!by_walks(request)) return texels * kSolverVectors * kVector;
+  return texels * systems * kSystemMaps * kMap +
+         gather_bytes(width, height, std::min<std::uint64_t>(kMostFields, systems));
+}
+
+/// Of bounces: E_b, E_{b+1}, their sum and what walks keep (E_{b−1} and L twice, sums, a field) or the tail.
+/// They may look more closely than totals do, whose gather stays.
+std::uint64_t bouncing_bytes(int width, int height, const Request& request) {
+  if (request.wanted.bounces == 0) return 0;
+  const auto texels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+  const std::uint64_t gathers =
+      by_walks(request) ? gather_bytes(width, height, 1) + gather_bytes(width, height, 0) : 0;
+  const std::uint64_t check = request.checks.bounces ? BounceCheck::bytes(width, height) : 0;
+  const std::uint64_t tail = by_walks(request) ? 0 : kSolverVectors * kVector;
+  return texels * (6 * kVector + 2 * kMap + tail) + gathers + check;
+}
+
+/// Of planning walks: their pilot, the best gather so far, and the next, which is tried on light that the sky
+/// or each channel of one's own may make.
+std::uint64_t planning_bytes(int width, int height, const Request& request) {
+  if (!by_walks(request)) return 0;
+  const std::uint64_t pilot = horizon_pilot_bytes(width, height);
+  if (!needs_operator(request.wanted)) return pilot;
+  const auto texels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+  const std::uint64_t lights = std::max<std::uint64_t>(1, request.wanted.direct.size());
+  return pilot + gather_bytes(width, height, 1) + gather_bytes(width, height, 0) + texels * lights * kMap;
+}
+
+/// What comes one after the other: each has gone when the next begins.
+std::uint64_t passing_bytes(int width, int height, const Request& request) {
+  const std::uint64_t planning = planning_bytes(width, height, request);
+  if (!needs_operator(request.wanted)) return planning;
+  return std::max({planning, solving_bytes(width, height, request), bouncing_bytes(width, height, request)});
 }
 
 }  // namespace
@@ -62,21 +102,11 @@ std::uint64_t estimate_memory(int width, int height, const Request& request) {
       wanted.definitions.end())
     per_texel += kMap + sizeof(Vector3);  // the surface upside down; its pyramids come after the others
   if (lights_from_above(wanted)) per_texel += kVector + horizon_sky_bytes({});
-  if (request.accuracy.visibility == Visibility::horizon_walks)
-    pyramids += horizon_pilot_bytes(width, height);
   if (needs_operator(wanted)) {
-    per_texel += kVector + light_bytes(request);  // the direct light
-    if (request.accuracy.visibility == Visibility::horizon_walks) {
-      // The heights that gathers look at, and the fields that one reads at once.
-      const std::uint64_t fields = std::min<std::uint64_t>(
-          kMostFields, channels_of(wanted) + (wanted.seen || wanted.bounces > 0 ? 1 : 0));
-      pyramids += gather_bytes(width, height, fields);
-      if (wanted.bounces > 0) pyramids += gather_bytes(width, height, 0);  // bounces may look more closely
-    }
-    if (wanted.bounces > 0 && request.checks.bounces) pyramids += BounceCheck::bytes(width, height);
+    per_texel += kVector + found_light_bytes(request);  // the direct light
     if (wanted.reach && (wanted.sky || wanted.moments.first)) per_texel += horizon_sky_bytes({});
   }
-  return texels * per_texel + pyramids;
+  return texels * per_texel + pyramids + passing_bytes(width, height, request);
 }
 
 std::uint64_t refinement_bytes(int width, int height, const Wanted& wanted) {
