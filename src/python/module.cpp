@@ -70,13 +70,9 @@ PYBIND11_MODULE(_native, module) {
   py::class_<Settings>(module, "Settings")
       .def(py::init([](double error, int azimuths, int rays, std::uint64_t seed, int threads,
                        std::uint64_t memory, py::object progress) {
-             Settings settings{error,
-                               azimuths,
-                               rays,
-                               seed,
-                               threads == 0 ? default_threads() : threads,
-                               memory,
-                               std::move(progress)};
+             Settings settings{
+                 error,  azimuths,           rays, seed, threads == 0 ? default_threads() : threads,
+                 memory, std::move(progress)};
              check_settings(settings);
              return settings;
            }),

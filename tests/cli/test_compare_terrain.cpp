@@ -41,7 +41,8 @@ TEST_CASE("compare --terrain says how much memory it needs", "[cli][compare][ter
   const CommandResult run =
       run_command("compare map.png -o out --boundary open --terrain --memory 1M", folder);
   CHECK(run.exit_code == 1);
-  CHECK_THAT(run.error, Contains("map.png: reading ") && Contains("that the program itself takes (--memory "));
+  CHECK_THAT(run.error,
+             Contains("map.png: reading ") && Contains("that the program itself takes (--memory "));
   CHECK_FALSE(std::filesystem::exists(folder / "out"));
 }
 

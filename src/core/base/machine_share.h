@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <string>
 
 // What a program that shares its machine with others may take, where nobody says. Linux only.
 

@@ -1,8 +1,6 @@
 #include "bake/bake_memory.h"
 
 #include <algorithm>
-#include <string>
-#include <vector>
 
 #include "bake/baked_map.h"
 #include "bake/material.h"
