@@ -82,7 +82,7 @@ void make_map(const std::string& shape, int side, const ScratchFolder& folder) {
 
 }  // namespace
 
-TEST_CASE("--memory is kept, or refused with what would do", "[cli][memory]") {
+TEST_CASE("a promise of memory is kept, or refused with what would do", "[cli][memory]") {
   const ScratchFolder folder;
   make_map("brick", 512, folder);
   check_promise({"bake", "brick512.png", "-o", "out"}, "200M", folder);
@@ -94,7 +94,7 @@ TEST_CASE("--memory is kept, or refused with what would do", "[cli][memory]") {
   CHECK(check_promise({"info", "brick512.png"}, "1M", folder));
 }
 
-TEST_CASE("--memory is kept on larger maps, whatever is made of them", "[cli][memory][slow]") {
+TEST_CASE("a promise of memory is kept on larger maps, whatever is made of them", "[cli][memory][slow]") {
   const ScratchFolder folder;
   const std::string shape = GENERATE("brick", "fbm");
   const int side = GENERATE(512, 1024);
