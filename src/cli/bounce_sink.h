@@ -5,6 +5,7 @@
 
 #include "cli/simulation.h"
 #include "cli/simulation_files.h"
+#include "files/image_file.h"
 #include "files/staged_output.h"
 #include "heightlight/curves.h"
 #include "heightlight/solve.h"

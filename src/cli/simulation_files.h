@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "files/image_file.h"
 #include "files/staged_output.h"
 #include "heightlight/georeference.h"
 #include "heightlight/solve.h"

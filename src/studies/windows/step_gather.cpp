@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "base/parallel.h"
 #include "files/json_file.h"
 #include "transport/gather_field.h"
 #include "transport/progressive_gather.h"

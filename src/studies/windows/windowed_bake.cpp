@@ -9,6 +9,7 @@
 #include "bake/material.h"
 #include "base/progress.h"
 #include "files/interrupt.h"
+#include "files/input_file.h"
 #include "files/output_file.h"
 #include "heightlight/error.h"
 #include "solve/solver.h"

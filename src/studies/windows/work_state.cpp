@@ -1,5 +1,6 @@
 #include <system_error>
 
+#include "files/input_file.h"
 #include "files/json_file.h"
 #include "heightlight/version.h"
 #include "windows/work.h"
