@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <system_error>
 
 #include "bake/baked_files.h"
 #include "bake/material.h"
@@ -17,6 +16,7 @@
 #include "windows/steps.h"
 #include "windows/windowed_bake.h"
 #include "windows/work_check.h"
+#include "windows/work_place.h"
 
 namespace heightlight {
 namespace {
@@ -125,22 +125,6 @@ void check_window(const MapRect& window, const WorkFacts& facts) {
                        std::to_string(facts.grid.map_height) + " texels");
 }
 
-/// A work folder, as long as it is needed.
-class TemporaryWork {
- public:
-  explicit TemporaryWork(const WindowedTask& task) : work_(begin_work(task, 0)) {}
-  ~TemporaryWork() {
-    std::error_code ignored;
-    std::filesystem::remove_all(work_.task.folder, ignored);
-  }
-  TemporaryWork(const TemporaryWork&) = delete;
-  TemporaryWork& operator=(const TemporaryWork&) = delete;
-  Work& operator*() { return work_; }
-
- private:
-  Work work_;
-};
-
 BakeOutcome write_window_textures(const Work& work, const Material& material, const MapRect& window,
                                   const BakeTarget& target) {
   const WorkFacts& facts = work.state.facts;
@@ -168,8 +152,8 @@ BakeOutcome write_window_textures(const Work& work, const Material& material, co
 
 BakeOutcome bake_window(const WindowedTask& task, const MapRect& window, const BakeTarget& target) {
   check_windowed(task);
-  TemporaryWork temporary(task);
-  Work& work = *temporary;
+  const WorkPlace place_of_work(task.folder);
+  Work work = begin_work(task, 0);
   take_reach(work);
   check_window(window, work.state.facts);
   for (int part = 0; part < work.state.facts.grid.count(); ++part) find_coarse_blocks(work, part);

@@ -16,8 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A file on its way to be whole.
-fs::path unfinished(const fs::path& file) { return file.string() + ".part"; }
+/// A file on its way to be whole, of this process: others may make the same one.
+fs::path unfinished(const fs::path& file) { return fmt::format("{}.{}.part", file.string(), getpid()); }
 
 void appear(const fs::path& file) {
   std::error_code failure;

@@ -8,14 +8,15 @@
 
 #include "bake/material.h"
 #include "base/progress.h"
-#include "files/interrupt.h"
 #include "files/input_file.h"
+#include "files/interrupt.h"
 #include "files/output_file.h"
 #include "heightlight/error.h"
 #include "solve/solver.h"
 #include "windows/begin_work.h"
 #include "windows/steps.h"
 #include "windows/work_check.h"
+#include "windows/work_place.h"
 
 namespace heightlight {
 namespace {
@@ -278,7 +279,10 @@ void next_step(Work& work) {
 }
 
 BakeOutcome bake_in_windows(WindowedTask task, int side, const BakeTarget& target) {
+  check_windowed(task);
+  WorkPlace place(task.folder);
   Work work = open_work(std::move(task), side);
+  place.keep();
   Watch watch = work.task.options.watch;
   work.task.options.watch.tell = {};  // steps are told of, window by window
   while (work.state.step != WorkStep::done) {

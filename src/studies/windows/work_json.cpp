@@ -1,5 +1,8 @@
 #include "windows/work_json.h"
 
+#include <unistd.h>
+
+#include <string>
 #include <system_error>
 
 #include "files/evidence_json.h"
@@ -81,7 +84,7 @@ ChangeSum change_of(const nlohmann::json& json) {
 }
 
 void replace_json(const std::filesystem::path& path, const nlohmann::ordered_json& json) {
-  const std::filesystem::path unfinished = path.string() + ".part";
+  const std::filesystem::path unfinished = path.string() + "." + std::to_string(getpid()) + ".part";
   write_bytes(unfinished, json_text(json));
   std::error_code failure;
   std::filesystem::rename(unfinished, path, failure);
