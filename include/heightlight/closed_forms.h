@@ -10,7 +10,7 @@
 #include "heightlight/image.h"
 #include "heightlight/surface.h"
 
-// The closed forms of forms.h as a list, what maps tell them, and their text as shaders.
+// The closed forms of forms.h as a list, and what maps tell them.
 
 namespace heightlight {
 
@@ -77,26 +77,5 @@ Map solve_seen(const Map& sky_view_factor, const TexelVector& total);
 /// tiles, ended at its edges where not) with weights 1 − A, since occluded places are what is seen. From the
 /// sky view factor alone. The plain A where nothing near is occluded; NaN where missing.
 Map blur_seen(const Map& sky_view_factor, bool tiles, double sigma = kBlurSigma);
-
-enum class ShaderLanguage { glsl, hlsl };
-
-/// Constants as fitted, to stand beside the published ones.
-struct ShaderConstants {
-  NotesConstants notes;
-  CubicConstants cubic;
-  SeenConstants seen;
-};
-
-/// The closed forms as functions to paste into a shader, for one albedo and for three (vec3, float3): names
-/// begin with heightlight_, forms with fitted constants end in _fitted. They compute what forms.h does, in
-/// the shader's precision.
-std::string shader_text(ShaderLanguage language, const ShaderConstants& constants);
-
-/// One of the closed forms, of the name that closed_forms() has for it, with what it is made from; for one
-/// albedo and for three. Throws UsageError for a form that is its AO, or is none.
-std::string form_shader(const std::string& name, ShaderLanguage language);
-
-/// The one function that a texture of the two channels A and n needs (kStoredPairShader).
-std::string stored_pair_shader(ShaderLanguage language);
 
 }  // namespace heightlight

@@ -13,8 +13,8 @@
 //
 // Each form is stated here and nowhere else: its function, its constants, and beside them its name, formula
 // and source in words and its text as a shader function. Evaluation, fits, plots and emitted shaders take
-// them from here. Shader text serves GLSL and HLSL; $name stands for the constant of that name, $3 for the
-// type of three floats.
+// them from here. Shader text is in the part of GLSL that is printed in every shading language (shaders.h
+// tells it); $name stands for the constant of that name.
 
 namespace heightlight {
 
@@ -61,9 +61,11 @@ constexpr Real clamp_share(Real share) {
   return share < Real{0} ? Real{0} : Real{1} < share ? Real{1} : share;
 }
 
-/// What all shader functions below begin with.
-inline constexpr const char* kShareShader =
-    "float heightlight_share(float x) { return min(max(x, 0.0), 1.0); }\n";
+/// The same in shaders.
+inline constexpr const char* kShareShader = R"(float heightlight_share(float x) {
+  return min(max(x, 0.0), 1.0);
+}
+)";
 
 // The direct light, taken for the whole of it
 // ----------------------------------------------------------------------
@@ -104,24 +106,26 @@ inline constexpr FormText kNotesDirectText{"notes_direct", "alpha (1 + gain (1 -
                                            "file 004 eq. 7", ""};
 inline constexpr FormText kNotesFirstBounceText{
     "notes_first_bounce", "A alpha (1 - alpha)^1.5 exp(-B alpha^0.25)", "file 004 eq. 11", ""};
-inline constexpr FormText kNotesText{
-    "notes", "F0 + rho F1/(1 - rho tau)", "file 004 eqs. 7, 9 to 12",
-    R"(// F0 + albedo F1/(1 - albedo tau), from F0 and F1; 1 outside its domain.
-float heightlight_bounce_sum(float direct, float first, float albedo) {
-  float missing = 1.0 - direct;
-  float brought = albedo * first;
-  float rest = (1.0 - albedo) * missing + brought;
-  return missing > 0.0 && rest > 0.0 ? direct + missing * (brought / rest) : 1.0;
-}
-
-// The study notes' eqs. 7 and 9 to 12. Inputs: alpha, not sky.
-float heightlight_notes$suffix(float alpha, float albedo) {
+inline constexpr FormText kNotesText{"notes", "F0 + rho F1/(1 - rho tau)", "file 004 eqs. 7, 9 to 12",
+                                     R"(float heightlight_notes$suffix(float alpha, float albedo) {
   float a = heightlight_share(alpha);
   float direct = a * (1.0 + ($direct_gain) * pow(1.0 - a, $direct_power));
   float first = $first_gain * a * (1.0 - a) * sqrt(1.0 - a) * exp(-($first_decay) * sqrt(sqrt(a)));
   return heightlight_bounce_sum(direct, first, albedo);
 }
 )"};
+
+/// What the notes' form ends with, whatever its constants: F₀ + ρ F₁/(1 − ρτ), as sum_bounces_guarded
+/// sums it.
+inline constexpr const char* kBounceSumShader =
+    R"(float heightlight_bounce_sum(float direct, float first, float albedo) {
+  float missing = 1.0 - direct;
+  float brought = albedo * first;
+  float rest = (1.0 - albedo) * missing + brought;
+  if (missing <= 0.0 || rest <= 0.0) { return 1.0; }
+  return direct + missing * (brought / rest);
+}
+)";
 
 /// F₀, file 004 eq. 7: E₀/π as a function of α. As published it exceeds 1, by up to 0.0062, where α > 0.9493.
 template <class Real>
@@ -148,29 +152,41 @@ Real notes_ratio(AmbientOcclusion<Real> occlusion, const NotesConstants& constan
   return 1 - notes_first_bounce(occlusion, constants) / missing;
 }
 
-/// File 004 eqs. 10 and 12: F₀ + ρ F₁/(1 − ρτ). With eq. 9 for τ that is
+/// File 004 eqs. 10 and 12, from F₀, F₁ and ρ: F₀ + ρ F₁/(1 − ρτ). With eq. 9 for τ that is
 ///     F₀ + ρ F₁ (1 − F₀)/((1 − ρ)(1 − F₀) + ρ F₁),
 /// which loses no digits where F₀ comes near 1. In its domain it lies in [0, 1], rises with ρ and is 1 at ρ =
-/// 1. NaN outside: where F₀ ≥ 1 (as published: α > 0.9493, and α = 1), and where no bounce brings
-/// anything at ρ = 1 (ρτ = 1, at α = 0).
+/// 1. NaN outside: where F₀ ≥ 1, and where no bounce brings anything at ρ = 1 (ρτ = 1).
 template <class Real>
-Real notes_total(AmbientOcclusion<Real> occlusion, Real albedo, const NotesConstants& constants = {}) {
-  const Real direct = notes_direct(occlusion, constants);
+constexpr Real sum_bounces(Real direct, Real first, Real albedo) {
   const Real missing = 1 - direct;
   if (missing <= 0) return static_cast<Real>(NAN);
-  const Real first = albedo * notes_first_bounce(occlusion, constants);
-  const Real rest = (1 - albedo) * missing + first;
+  const Real brought = albedo * first;
+  const Real rest = (1 - albedo) * missing + brought;
   if (rest <= 0) return static_cast<Real>(NAN);
-  return direct + missing * (first / rest);  // in this order it is never above 1
+  return direct + missing * (brought / rest);  // in this order it is never above 1
 }
 
-/// notes_total with an answer everywhere, as a renderer needs it: 1 where F₀ ≥ 1 (nearly open, and full
+/// The notes' total: sum_bounces of their F₀ and F₁. Outside its domain, as published: α > 0.9493, α = 1, and
+/// α = 0 at ρ = 1.
+template <class Real>
+Real notes_total(AmbientOcclusion<Real> occlusion, Real albedo, const NotesConstants& constants = {}) {
+  return sum_bounces(notes_direct(occlusion, constants), notes_first_bounce(occlusion, constants), albedo);
+}
+
+/// sum_bounces with an answer everywhere, as a renderer needs it: 1 where F₀ ≥ 1 (nearly open, and full
 /// already) and where ρτ = 1 (at ρ = 1 all totals are 1). NaN of NaN only.
+template <class Real>
+Real sum_bounces_guarded(Real direct, Real first, Real albedo) {
+  const Real total = sum_bounces(direct, first, albedo);
+  return std::isnan(total) && !std::isnan(direct + first + albedo) ? Real{1} : total;
+}
+
+/// notes_total, likewise.
 template <class Real>
 Real notes_total_guarded(AmbientOcclusion<Real> occlusion, Real albedo,
                          const NotesConstants& constants = {}) {
-  const Real total = notes_total(occlusion, albedo, constants);
-  return std::isnan(total) && !std::isnan(occlusion.value + albedo) ? Real{1} : total;
+  return sum_bounces_guarded(notes_direct(occlusion, constants), notes_first_bounce(occlusion, constants),
+                             albedo);
 }
 
 // Jimenez' two forms (file 000)
@@ -178,11 +194,11 @@ Real notes_total_guarded(AmbientOcclusion<Real> occlusion, Real albedo,
 
 inline constexpr FormText kUniformNeighbourhoodText{
     "uniform_neighbourhood", "A/(1 - rho (1 - A))", "file 000 eq. 12; file 002 eq. 6",
-    R"(// A/(1 - albedo (1 - A)): Jimenez et al., eq. 12. Inputs: sky.
-float heightlight_uniform_neighbourhood(float sky, float albedo) {
+    R"(float heightlight_uniform_neighbourhood(float sky, float albedo) {
   float a = heightlight_share(sky);
   float rest = (1.0 - albedo) + albedo * a;
-  return rest > 0.0 ? a / rest : 1.0;
+  if (rest <= 0.0) { return 1.0; }
+  return a / rest;
 }
 )"};
 
@@ -208,10 +224,8 @@ inline constexpr FormConstant<CubicConstants> kCubicConstants[] = {
     {"b_slope", &CubicConstants::b_slope}, {"b_offset", &CubicConstants::b_offset},
     {"c_slope", &CubicConstants::c_slope}, {"c_offset", &CubicConstants::c_offset}};
 
-inline constexpr FormText kCubicText{
-    "cubic", "a A^3 - b A^2 + c A", "file 000 eq. 33",
-    R"(// a A^3 - b A^2 + c A, coefficients linear in albedo: Jimenez et al., eq. 33. Inputs: sky.
-float heightlight_cubic$suffix(float sky, float albedo) {
+inline constexpr FormText kCubicText{"cubic", "a A^3 - b A^2 + c A", "file 000 eq. 33",
+                                     R"(float heightlight_cubic$suffix(float sky, float albedo) {
   float a = heightlight_share(sky);
   float a3 = $a_slope * albedo + ($a_offset);
   float a2 = $b_slope * albedo + ($b_offset);
@@ -284,28 +298,23 @@ Real ambient_transfer(SkyViewFactor<Real> sky, const Range& occluders) {
 // G, from A and what is seen
 // ---------------------------------------------------------------------------------------
 
-inline constexpr FormText kBouncedText{
-    "seen_stored", "A + rho (1 - A) n/(1 - rho (1 - n))", "here",
-    R"(// G = A + albedo (1 - A) n/(1 - albedo (1 - n)), n the mean sky view factor of what the texel sees: exact at
-// albedo 0 and 1, no poles. Inputs: sky, and seen from one of the functions below, or a second channel that
-// holds n (solved for at albedo $seen_albedo).
-float heightlight_bounced(float sky, float seen, float albedo) {
+inline constexpr FormText kBouncedText{"seen_stored", "A + rho (1 - A) n/(1 - rho (1 - n))", "here",
+                                       R"(float heightlight_bounced(float sky, float seen, float albedo) {
   float a = heightlight_share(sky);
   float n = heightlight_share(seen);
   float rest = (1.0 - albedo) + albedo * n;
-  return rest > 0.0 ? a + (1.0 - a) * (albedo * n / rest) : 1.0;
+  if (rest <= 0.0) { return 1.0; }
+  return a + (1.0 - a) * (albedo * n / rest);
 }
 )"};
 
 /// The same for a texture whose two channels are A and n, as `ao-n` maps hold them, at an albedo of three
-/// channels: a file of its own. $2 and $3 are the types of two and three floats.
-inline constexpr const char* kStoredPairShader =
-    "// Irradiance of all bounces over that of an open place, under an even sky, at any albedo.\n"
-    "// a_n: the texture's two channels, A and n, linear. albedo: linear reflectance, per channel.\n"
-    "$3 multi_bounce($2 a_n, $3 albedo) {\n"
-    "  $3 loss = max(1.0 - albedo * (1.0 - a_n.y), 1e-4);\n"
-    "  return a_n.x + albedo * (1.0 - a_n.x) * a_n.y / loss;\n"
-    "}\n";
+/// channels.
+inline constexpr const char* kStoredPairShader = R"(vec3 multi_bounce(vec2 a_n, vec3 albedo) {
+  return vec3(heightlight_bounced(a_n.x, a_n.y, albedo.x), heightlight_bounced(a_n.x, a_n.y, albedo.y),
+              heightlight_bounced(a_n.x, a_n.y, albedo.z));
+}
+)";
 
 /// What such a pair of channels means, for whoever reads them.
 inline constexpr const char* kStoredPairMeaning =
@@ -386,8 +395,7 @@ inline constexpr FormConstant<SeenConstants> kSeenConstants[] = {
     {"blur_slope", &SeenConstants::blur_slope}};
 
 inline constexpr FormText kSeenFromSkyText{"seen_from_sky", "G(A, n, rho), n = offset + slope A", "here",
-                                           R"(// n from A alone.
-float heightlight_seen_from_sky(float sky) {
+                                           R"(float heightlight_seen_from_sky(float sky) {
   return heightlight_share($offset + $slope * heightlight_share(sky));
 }
 )"};
@@ -401,10 +409,10 @@ constexpr SeenSkyViewFactor<Real> guess_seen(SkyViewFactor<Real> sky, const Seen
 
 inline constexpr FormText kSeenFromMapText{
     "seen_from_map", "G(A, n, rho), n = offset + s + slope (A - s) + curvature (A - s)^2", "here",
-    R"(// n from A and one number for the whole map, expected: seen.expected_sky_view_factor of heightlight simulate.
-float heightlight_seen_from_map(float sky, float expected) {
-  float d = heightlight_share(sky) - expected;
-  return heightlight_share($map_offset + expected + d * ($map_slope + d * ($map_curvature)));
+    R"(float heightlight_seen_from_map(float sky, float expected) {
+  float s = heightlight_share(expected);
+  float d = heightlight_share(sky) - s;
+  return heightlight_share($map_offset + s + d * ($map_slope + d * ($map_curvature)));
 }
 )"};
 
@@ -419,10 +427,9 @@ constexpr SeenSkyViewFactor<Real> guess_seen_on_map(SkyViewFactor<Real> sky, See
       d * (static_cast<Real>(constants.map_slope) + d * static_cast<Real>(constants.map_curvature))));
 }
 
-inline constexpr FormText kSeenFromDeepText{
-    "seen_from_deep", "G(A, n, rho), n = t + (slope + bend t) A", "here",
-    R"(// n from A and one number for the whole map that its simulation found: seen.deep_sky_view_factor of simulate.
-float heightlight_seen_from_deep(float sky, float deep) {
+inline constexpr FormText kSeenFromDeepText{"seen_from_deep", "G(A, n, rho), n = t + (slope + bend t) A",
+                                            "here",
+                                            R"(float heightlight_seen_from_deep(float sky, float deep) {
   return heightlight_share(deep + ($deep_slope + ($deep_bend) * deep) * heightlight_share(sky));
 }
 )"};
@@ -440,11 +447,11 @@ constexpr SeenSkyViewFactor<Real> guess_seen_in_deep(SkyViewFactor<Real> sky, Se
 /// The blur with which n is guessed best on the maps of plots/make-models, in texels.
 inline constexpr double kBlurSigma = 1.5;
 
-inline constexpr FormText kSeenFromBlurText{
-    "seen_from_blur", "G(A, n, rho), n = offset + W + slope (A - W)", "here",
-    R"(// n from A and its blur, weighted by 1 - A, a Gaussian of $blur_sigma texels.
-float heightlight_seen_from_blur(float sky, float blurred) {
-  return heightlight_share($blur_offset + blurred + $blur_slope * (heightlight_share(sky) - blurred));
+inline constexpr FormText kSeenFromBlurText{"seen_from_blur", "G(A, n, rho), n = offset + W + slope (A - W)",
+                                            "here",
+                                            R"(float heightlight_seen_from_blur(float sky, float blurred) {
+  float w = heightlight_share(blurred);
+  return heightlight_share($blur_offset + w + $blur_slope * (heightlight_share(sky) - w));
 }
 )"};
 

@@ -132,6 +132,7 @@ int run_command_line(int argument_count, const char* const* arguments) {
   add_bake_command(app);
   add_compare_command(app);
   add_fit_command(app);
+  add_shaders_command(app);
   add_synth_command(app);
   add_info_command(app);
   add_dataset_command(app);

@@ -26,6 +26,7 @@
 #include "heightlight/error.h"
 #include "heightlight/files.h"
 #include "heightlight/screenspace.h"
+#include "heightlight/shaders.h"
 
 namespace heightlight {
 namespace {
@@ -109,9 +110,12 @@ ComparedSky read_compared_sky(const CompareOptions& options) {
 
 /// The forms of the list as published, then the user's as fitted to the map.
 std::string shader_of_forms(const std::vector<FormOnMap>& own_forms, ShaderLanguage language) {
-  std::string text = shader_text(language, {});
-  for (const FormOnMap& own : own_forms) text += '\n' + user_form_shader(own.form, language, own.constants);
-  return text;
+  std::vector<ShaderFunction> functions;
+  for (const FormOnMap& own : own_forms) {
+    for (ShaderFunction& function : user_form_functions(own.form, own.constants))
+      functions.push_back(std::move(function));
+  }
+  return shader_text(language, {}, functions);
 }
 
 /// Where the user's forms say nothing on exact AO, which a table alone would tell too softly.

@@ -18,8 +18,8 @@
 #include "files/printable.h"
 #include "files/staged_output.h"
 #include "fit/fit_study.h"
-#include "heightlight/closed_forms.h"
 #include "heightlight/error.h"
+#include "heightlight/shaders.h"
 #include "plot/ratio_plots.h"
 
 namespace heightlight {
@@ -59,15 +59,18 @@ std::vector<JudgedMap> read_maps(const FitOptions& options, std::vector<std::fil
 /// The forms of the list with the constants fitted here, then the user's.
 std::string shader_of_report(const FitReport& report, const std::vector<UserForm>& own,
                              ShaderLanguage language) {
-  std::string text = shader_text(language, shader_constants(report));
+  std::vector<ShaderFunction> functions;
   for (const UserForm& form : own) {
     const FittedFamily* fitted = find_family(report, form.name);
-    const std::span<const double> constants =
-        fitted ? std::span(fitted->fit.parameters.data(), form.expression.constants.size())
-               : std::span<const double>();
-    text += '\n' + user_form_shader(form, language, constants);
+    std::vector<double> constants;
+    if (fitted) {
+      const auto* first = fitted->fit.parameters.data();
+      constants.assign(first, first + form.expression.constants.size());
+    }
+    for (ShaderFunction& function : user_form_functions(form, constants))
+      functions.push_back(std::move(function));
   }
-  return text;
+  return shader_text(language, shader_constants(report), functions);
 }
 
 const JudgedForm* find_judged(const std::vector<JudgedForm>& forms, const UserForm& wanted) {

@@ -5,6 +5,7 @@
 #include "expression/expression.h"
 #include "heightlight/closed_forms.h"
 #include "heightlight/error.h"
+#include "heightlight/shaders.h"
 #include "python/arrays.h"
 #include "python/bindings.h"
 #include "user_form/user_form.h"
@@ -84,9 +85,10 @@ py::array_t<double> evaluate_form(const std::string& name, const Array<double>& 
 }
 
 ShaderLanguage find_language(const std::string& name) {
-  if (name == "glsl") return ShaderLanguage::glsl;
-  if (name == "hlsl") return ShaderLanguage::hlsl;
-  throw UsageError("language", name, "must be glsl or hlsl");
+  for (const ShaderLanguageName& known : kShaderLanguages) {
+    if (name == known.name) return known.language;
+  }
+  throw UsageError("language", name, "must be glsl, hlsl, wgsl or godot");
 }
 
 py::list list_forms() {
@@ -129,7 +131,7 @@ void add_user_form(py::module_& module) {
           [](const UserForm& form, const std::string& language, const std::vector<double>& constants) {
             if (constants.size() != form.expression.constants.size())
               throw UsageError("constants", "", "are not as many as the form has");
-            return user_form_shader(form, find_language(language), constants);
+            return print_shader(user_form_functions(form, constants), find_language(language));
           },
           py::arg("language"), py::arg("constants"));
 }

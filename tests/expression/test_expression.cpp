@@ -18,7 +18,7 @@ double value(const std::string& text, const std::vector<double>& constants = {})
 }
 
 std::string glsl(const std::string& text, const std::vector<double>& constants = {}) {
-  return shader_expression(parse_expression(text), ShaderLanguage::glsl, constants);
+  return shader_expression(parse_expression(text), constants, "mine");
 }
 
 }  // namespace
@@ -111,14 +111,18 @@ TEST_CASE("shaders get as many parentheses as the formula needs", "[forms][expre
   CHECK(glsl("(A + n)*rho") == "(A + n) * rho");
   CHECK(glsl("-(A + n)") == "-(A + n)");
   CHECK(glsl("-A^2") == "-pow(A, 2.0)");
-  CHECK(glsl("(-A)^2") == "pow(-A, 2.0)");
+  CHECK(glsl("(-A)^2") == "heightlight_power_in_mine(-A, 2.0)");
+  CHECK(glsl("(1 - A)^2") == "pow(1.0 - A, 2.0)");
+  CHECK(glsl("(1 - rho*(1 - A))^0.5") == "pow(1.0 - rho * (1.0 - A), 0.5)");
+  CHECK(glsl("(A - n)^3") == "heightlight_power_in_mine(A - n, 3.0)");
+  CHECK(glsl("A^rho") == "heightlight_power_in_mine(A, rho)");
+  CHECK(glsl("A^(rho + 1)") == "pow(A, rho + 1.0)");
   CHECK(glsl("A - k*n", {-2}) == "A - -2.0 * n");
-  CHECK(glsl("k^2", {-2}) == "pow(-2.0, 2.0)");
+  CHECK(glsl("k^2", {-2}) == "heightlight_power_in_mine(-2.0, 2.0)");
   CHECK(glsl("- -A") == "-(-A)");
   CHECK(glsl("-k*A", {-2}) == "-(-2.0) * A");
   CHECK(glsl("mix(A, n, rsqrt(4))") == "mix(A, n, inversesqrt(4.0))");
-  CHECK(shader_expression(parse_expression("mix(fract(A), n, mod(A + 1, 2))"), ShaderLanguage::hlsl, {}) ==
-        "lerp(frac(A), n, ((A + 1.0) - (2.0) * floor((A + 1.0) / (2.0))))");
+  CHECK(glsl("lerp(frac(A), n, mod(A + 1, 2))") == "mix(fract(A), n, heightlight_mod_in_mine(A + 1.0, 2.0))");
 }
 
 }  // namespace heightlight

@@ -11,7 +11,8 @@ namespace {
 
 /// No '$' of a template that was not filled in.
 void check_shader(const std::string& text) {
-  heightlight::require(text.find('$') == std::string::npos, "a shader has no place that is not filled in");
+  heightlight::require(text.find_first_of("$@") == std::string::npos,
+                       "a shader has no place that is not filled in");
 }
 
 }  // namespace
@@ -27,8 +28,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     inputs.ambient_occlusion = AmbientOcclusion(0.4);
     inputs.seen = SeenSkyViewFactor(0.5);
     evaluate(form, inputs, 0.8, constants);
-    for (const ShaderLanguage language : {ShaderLanguage::glsl, ShaderLanguage::hlsl})
-      check_shader(user_form_shader(form, language, constants));
+    const std::vector<ShaderFunction> functions = user_form_functions(form, constants);
+    for (const ShaderLanguageName& one : kShaderLanguages)
+      check_shader(print_shader(functions, one.language));
   } catch (const UsageError& error) {
     require(std::string(error.what()).find('\n') == std::string::npos, "an error is one line");
   }

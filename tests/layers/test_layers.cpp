@@ -15,8 +15,8 @@ namespace {
 
 using Names = std::set<std::string>;
 
-const Names kCore = {"base",   "heightmap", "surface", "visibility", "transport",
-                     "curves", "forms",     "solve",   "skylight",   "screenspace"};
+const Names kCore = {"base",  "heightmap", "surface",  "visibility",  "transport", "curves",
+                     "forms", "solve",     "skylight", "screenspace", "shaders"};
 
 Names with(Names names, const Names& more) {
   names.insert(more.begin(), more.end());
@@ -36,6 +36,7 @@ const std::map<std::string, Names> kMayInclude = {
     {"solve", {"base", "heightmap", "surface", "visibility", "transport", "forms"}},
     {"skylight", {"base", "heightmap", "surface", "visibility"}},
     {"screenspace", {"base", "heightmap", "surface", "skylight"}},
+    {"shaders", {"base", "heightmap", "surface", "visibility", "curves", "forms"}},
     {"files", kCore},
     {"relief", kCore},
     {"expression", with(kCore, {"files"})},
@@ -63,10 +64,12 @@ const std::map<std::string, std::string> kLayerOfPublicHeader = {
     {"georeference.h", "heightmap"},
     {"surface.h", "surface"},
     {"visibility.h", "visibility"},
+    {"visibility_cone.h", "visibility"},
     {"transport.h", "transport"},
     {"curves.h", "curves"},
     {"forms.h", "base"},  // formulas alone, for everybody
     {"closed_forms.h", "forms"},
+    {"shaders.h", "shaders"},
     {"evidence.h", "solve"},
     {"solve.h", "solve"},
     {"screenspace.h", "screenspace"},

@@ -23,10 +23,8 @@ using float3 = vec3;
 float min(float a, float b) { return a < b ? a : b; }
 float max(float a, float b) { return a > b ? a : b; }
 float clamp(float x, float a, float b) { return min(max(x, a), b); }
-float saturate(float x) { return clamp(x, 0, 1); }
 float mix(float a, float b, float t) { return a * (1 - t) + b * t; }
 float lerp(float a, float b, float t) { return mix(a, b, t); }
-float mod(float a, float b) { return a - b * std::floor(a / b); }
 float pow(float a, float b) { return std::pow(a, b); }
 float sqrt(float a) { return std::sqrt(a); }
 float exp(float a) { return std::exp(a); }
@@ -49,9 +47,14 @@ const UserForm kSecond = parse_user_form("second = mix(alpha, 1, saturate(c1*rho
 const UserForm kThird = parse_user_form("third = A + rho*(1 - A)*n*exp(-alpha)/(1.5 - rho*(1 - n))");
 
 std::string shaders(ShaderLanguage language) {
-  return shader_text(language, {}) + user_form_shader(kFirst, language, std::vector<double>{1.25}) +
-         user_form_shader(kSecond, language, std::vector<double>{0.75}) +
-         user_form_shader(kThird, language, {});
+  std::vector<ShaderFunction> functions;
+  for (const auto& [form, constants] : {std::pair{&kFirst, std::vector<double>{1.25}},
+                                        {&kSecond, std::vector<double>{0.75}},
+                                        {&kThird, std::vector<double>{}}}) {
+    for (ShaderFunction& function : user_form_functions(*form, constants))
+      functions.push_back(std::move(function));
+  }
+  return shader_text(language, {}, functions);
 }
 
 std::string fault(const std::string& text) {

@@ -46,7 +46,7 @@ const std::vector<TerrainForm>& terrain_forms() {
            [](Terrain in) { return in.direct + in.window.albedo * in.configuration * in.window.direct; }},
       {.name = "average_albedo_seen",
        .description = "E0 + rho_w V E0_w, V = 1 - A",
-       .source = std::string(kDozier) + ", with V for C_t",
+       .source = std::string(kDozier).append(", with V for C_t"),
        .wants_window = true,
        .evaluate =
            [](Terrain in) { return in.direct + in.window.albedo * surface_share(in) * in.window.direct; }},
@@ -67,7 +67,7 @@ const std::vector<TerrainForm>& terrain_forms() {
            }},
       {.name = "level_series_seen",
        .description = "E0 + rho_w V L/(1 - rho_w V_w)",
-       .source = std::string(kSirguey) + ", with V for C_t",
+       .source = std::string(kSirguey).append(", with V for C_t"),
        .wants_window = true,
        .evaluate =
            [](Terrain in) {

@@ -18,8 +18,8 @@
 #include "files/image_file.h"
 #include "files/output_file.h"
 #include "files/staged_output.h"
-#include "heightlight/closed_forms.h"
 #include "heightlight/error.h"
+#include "heightlight/shaders.h"
 #include "visibility/reach_table.h"
 
 namespace heightlight {

@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "heightlight/closed_forms.h"
-
 namespace heightlight {
 
 /// What a formula may ask of a texel: A, alpha, n and rho.
@@ -50,9 +48,11 @@ bool uses(const Expression& expression, FormInput input);
 /// the expression has.
 double evaluate(const Expression& expression, const FormInputs& inputs, std::span<const double> constants);
 
-/// The formula in a shading language, with the constants in their places; its inputs are variables A, alpha,
-/// n and rho.
-std::string shader_expression(const Expression& expression, ShaderLanguage language,
-                              std::span<const double> constants);
+/// The formula for shaders, in the text that shaders.h prints in every language, with the constants in their
+/// places; its inputs are variables A, alpha, n and rho, each in [0, 1]. It may call two functions of two
+/// floats that no language has as C++ has them: heightlight_mod_in_NAME; and heightlight_power_in_NAME, where
+/// the base may be negative or the exponent 0, of which shaders' pow is undefined.
+std::string shader_expression(const Expression& expression, std::span<const double> constants,
+                              const std::string& name);
 
 }  // namespace heightlight

@@ -8,12 +8,12 @@ namespace {
 
 constexpr FormulaFunction same(const char* name, std::size_t arguments, double (*value)(const double*),
                                const char* text) {
-  return {name, nullptr, arguments, value, text, text};
+  return {name, nullptr, arguments, value, text};
 }
 
 constexpr FormulaFunction infix(const char* name, double (*value)(const double*), const char* text,
                                 Binding binding) {
-  return {name, nullptr, 2, value, text, text, binding, binding};
+  return {name, nullptr, 2, value, text, binding, binding};
 }
 
 double clamp_value(double x, double low, double high) { return std::min(std::max(x, low), high); }
@@ -23,7 +23,7 @@ double step_smoothly(const double* x) {
   return t * t * (3 - 2 * t);
 }
 
-/// By GLSL's definitions (GLSL 4.60, chapter 8). $ stands for an argument of its text.
+/// By GLSL's definitions (GLSL 4.60, chapter 8).
 constexpr FormulaFunction kFunctions[] = {
     infix(
         "+", [](const double* x) { return x[0] + x[1]; }, "$0 + $1", Binding::sum),
@@ -34,11 +34,11 @@ constexpr FormulaFunction kFunctions[] = {
     infix(
         "/", [](const double* x) { return x[0] / x[1]; }, "$0 / $1", Binding::product),
     same(
-        "^", 2, [](const double* x) { return std::pow(x[0], x[1]); }, "pow($0, $1)"),
+        "^", 2, [](const double* x) { return std::pow(x[0], x[1]); }, nullptr),
     // A sign before a sign would be the decrement of shaders.
-    {"-", nullptr, 1, [](const double* x) { return -x[0]; }, "-$0", "-$0", Binding::sign, Binding::whole},
+    {"-", nullptr, 1, [](const double* x) { return -x[0]; }, "-$0", Binding::sign, Binding::whole},
     same(
-        "pow", 2, [](const double* x) { return std::pow(x[0], x[1]); }, "pow($0, $1)"),
+        "pow", 2, [](const double* x) { return std::pow(x[0], x[1]); }, nullptr),
     same(
         "exp", 1, [](const double* x) { return std::exp(x[0]); }, "exp($0)"),
     same(
@@ -49,8 +49,7 @@ constexpr FormulaFunction kFunctions[] = {
         "log2", 1, [](const double* x) { return std::log2(x[0]); }, "log2($0)"),
     same(
         "sqrt", 1, [](const double* x) { return std::sqrt(x[0]); }, "sqrt($0)"),
-    {"inversesqrt", "rsqrt", 1, [](const double* x) { return 1 / std::sqrt(x[0]); }, "inversesqrt($0)",
-     "rsqrt($0)"},
+    {"inversesqrt", "rsqrt", 1, [](const double* x) { return 1 / std::sqrt(x[0]); }, "inversesqrt($0)"},
     same(
         "abs", 1, [](const double* x) { return std::abs(x[0]); }, "abs($0)"),
     same(
@@ -61,20 +60,18 @@ constexpr FormulaFunction kFunctions[] = {
         "floor", 1, [](const double* x) { return std::floor(x[0]); }, "floor($0)"),
     same(
         "ceil", 1, [](const double* x) { return std::ceil(x[0]); }, "ceil($0)"),
-    {"fract", "frac", 1, [](const double* x) { return x[0] - std::floor(x[0]); }, "fract($0)", "frac($0)"},
-    // HLSL's fmod has the sign of its first argument.
-    {"mod", nullptr, 2, [](const double* x) { return x[0] - x[1] * std::floor(x[0] / x[1]); }, "mod($0, $1)",
-     "(($0) - ($1) * floor(($0) / ($1)))"},
+    {"fract", "frac", 1, [](const double* x) { return x[0] - std::floor(x[0]); }, "fract($0)"},
+    // Not GLSL's own: HLSL's fmod and WGSL's % have the sign of their first argument.
+    {"mod", nullptr, 2, [](const double* x) { return x[0] - x[1] * std::floor(x[0] / x[1]); },
+     "heightlight_mod_in_@($0, $1)"},
     same(
         "min", 2, [](const double* x) { return std::min(x[0], x[1]); }, "min($0, $1)"),
     same(
         "max", 2, [](const double* x) { return std::max(x[0], x[1]); }, "max($0, $1)"),
     same(
         "clamp", 3, [](const double* x) { return clamp_value(x[0], x[1], x[2]); }, "clamp($0, $1, $2)"),
-    {"saturate", nullptr, 1, [](const double* x) { return clamp_value(x[0], 0, 1); }, "clamp($0, 0.0, 1.0)",
-     "saturate($0)"},
-    {"mix", "lerp", 3, [](const double* x) { return x[0] * (1 - x[2]) + x[1] * x[2]; }, "mix($0, $1, $2)",
-     "lerp($0, $1, $2)"},
+    {"saturate", nullptr, 1, [](const double* x) { return clamp_value(x[0], 0, 1); }, "clamp($0, 0.0, 1.0)"},
+    {"mix", "lerp", 3, [](const double* x) { return x[0] * (1 - x[2]) + x[1] * x[2]; }, "mix($0, $1, $2)"},
     same(
         "step", 2, [](const double* x) { return x[1] < x[0] ? 0.0 : 1.0; }, "step($0, $1)"),
     same("smoothstep", 3, step_smoothly, "smoothstep($0, $1, $2)"),

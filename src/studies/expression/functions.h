@@ -14,8 +14,9 @@ struct FormulaFunction {
   const char* other_name;  ///< HLSL's, likewise understood; nullptr where it is the same
   std::size_t arguments;
   double (*value)(const double* arguments);
-  const char* glsl;  ///< $0, $1 … stand for the arguments
-  const char* hlsl;
+  /// As shaders.h has it: $0, $1 … stand for the arguments, @ for the name of the form; nullptr of a
+  /// power.
+  const char* shader;
   Binding binding = Binding::whole;  ///< of the text
   Binding least = Binding::sum;      ///< of each argument's text; the last argument's is one tighter
 };

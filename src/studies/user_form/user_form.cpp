@@ -30,9 +30,12 @@ std::string trimmed(const std::string& text) {
 bool is_taken(const std::string& name) {
   const bool is_form = std::any_of(closed_forms().begin(), closed_forms().end(),
                                    [&](const ClosedForm& form) { return form.name == name; });
-  const bool is_function =
-      shader_text(ShaderLanguage::glsl, {}).find("heightlight_" + name + '(') != std::string::npos;
+  const auto is_called_so = [&](const ShaderFunction& function) {
+    return function.name == "heightlight_" + name;
+  };
+  const bool is_function = std::any_of(shader_functions().begin(), shader_functions().end(), is_called_so);
   const bool is_family = name.starts_with("notes_") || name.starts_with("cubic_") ||
+                         name.starts_with("power_in_") || name.starts_with("mod_in_") ||
                          name.starts_with("seen_") || name.starts_with("bounce_") ||
                          name.ends_with("_refit") || name.ends_with("_fitted");
   return is_form || is_function || is_family;

@@ -7,6 +7,7 @@
 
 #include "expression/expression.h"
 #include "heightlight/closed_forms.h"
+#include "heightlight/shaders.h"
 
 namespace heightlight {
 
@@ -50,8 +51,8 @@ ClosedForm to_closed_form(const UserForm& form, const std::vector<double>& const
 /// Its text with constants that were fitted: "A/(1 - rho*(1 - A)^k), k = 0.93".
 std::string describe(const UserForm& form, std::span<const double> constants);
 
-/// As a function of shaders, heightlight_NAME, for one albedo and for three.
-std::string user_form_shader(const UserForm& form, ShaderLanguage language,
-                             std::span<const double> constants);
+/// As a function of shaders, heightlight_NAME, behind what it calls that shaders have not
+/// (shader_expression).
+std::vector<ShaderFunction> user_form_functions(const UserForm& form, const std::vector<double>& constants);
 
 }  // namespace heightlight

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "heightlight/closed_forms.h"
+#include "heightlight/shaders.h"
 #include "scratch_folder.h"
 
 namespace heightlight {
