@@ -55,9 +55,10 @@ struct ShaderFunction {
   std::string twin;             ///< the C++ function that it equals
   /// That function in single precision: inputs one behind the other, components and all, to results.
   std::function<void(const float* inputs, float* results)> evaluate;
-  /// The most by which shader and twin may differ where the shader's operations are as exact as Vulkan asks,
-  /// in units of 2⁻²³ (the last place of 1).
-  double ulps = 4;
+  /// The most by which the shader, executed by Mesa's lavapipe, may differ from its twin, in units of 2⁻²³,
+  /// the last place of 1. Sums, products, quotients and roots are as exact there as in C++; powers,
+  /// exponentials and trigonometric functions are not.
+  double ulps = 1;
 };
 
 /// Constants as fitted, to stand beside the published ones.
@@ -95,6 +96,9 @@ std::string shader_text(ShaderLanguage language, const ShaderConstants& constant
 /// One of the closed forms, of the name that closed_forms() has for it, with what it is made from; for one
 /// albedo and for three. Throws UsageError for a form that is its AO, or is none.
 std::string form_shader(const std::string& name, ShaderLanguage language);
+
+/// Functions of one's own, with what they call of the list.
+std::string own_shader(const std::vector<ShaderFunction>& own, ShaderLanguage language);
 
 /// The one function that a texture of the two channels A and n needs (kStoredPairShader), with its parts.
 std::string stored_pair_shader(ShaderLanguage language);

@@ -104,7 +104,7 @@ class UserForm:
 
 def shader(name: Optional[str] = None, language: str = "glsl", *, constants: Optional[dict[str, float]] = None) -> str:
     """Shader functions, to paste: of one form by its name; of a user's form, "NAME = FORMULA", with its constants;
-    of all forms where no name is given. `language`: "glsl" or "hlsl"."""
+    of all forms where no name is given. `language`: "glsl", "hlsl", "wgsl" or "godot"."""
     if name is None:
         return _native.all_shaders(language)
     if "=" in name:

@@ -91,7 +91,7 @@ def test_a_form_of_ones_own():
 
 
 def test_shaders():
-    for language, three in (("glsl", "vec3"), ("hlsl", "float3")):
+    for language, three in (("glsl", "vec3"), ("hlsl", "float3"), ("wgsl", "vec3<f32>"), ("godot", "vec3")):
         for name in hl.forms.names():
             if name.startswith("direct"):
                 with pytest.raises(ValueError, match="has no shader"):
@@ -99,9 +99,10 @@ def test_shaders():
             else:
                 assert three in hl.shader(name, language)
         assert "heightlight_cubic" in hl.shader(language=language)
-    assert "pow" in hl.shader("mine = A^k", constants={"k": 2})
+    mine = hl.shader("mine = A^k", constants={"k": 2})
+    assert "pow" in mine and "float heightlight_share(" in mine
     with pytest.raises(ValueError, match="language"):
-        hl.shader("cubic", "wgsl")
+        hl.shader("cubic", "cg")
 
 
 def test_judging_a_form():

@@ -50,6 +50,7 @@ void list_functions() {
     fmt::print("{}({})\n  {}.\n", function.name, arguments, function.formula);
     if (!function.source.empty()) fmt::print("  Source: {}.\n", function.source);
     if (!function.error.empty()) fmt::print("  Measured error: {}.\n", function.error);
+    fmt::print("  In C++: {}.\n", function.twin);
   }
 }
 

@@ -131,7 +131,7 @@ void add_user_form(py::module_& module) {
           [](const UserForm& form, const std::string& language, const std::vector<double>& constants) {
             if (constants.size() != form.expression.constants.size())
               throw UsageError("constants", "", "are not as many as the form has");
-            return print_shader(user_form_functions(form, constants), find_language(language));
+            return own_shader(user_form_functions(form, constants), find_language(language));
           },
           py::arg("language"), py::arg("constants"));
 }

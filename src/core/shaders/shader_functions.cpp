@@ -139,7 +139,7 @@ ShaderFunction notes_function(const NotesConstants& constants, const std::string
               [constants](const float* in, float* out) {
                 *out = notes_total_guarded(AmbientOcclusion(in[0]), in[1], constants);
               },
-          .ulps = 256};
+          .ulps = 4};
 }
 
 // This project's
@@ -252,40 +252,45 @@ ShaderFunction cone_bands_function() {
       .components = 3,
       .text = kConeBandsShader,
       .twin = "cone_bands",
-      .evaluate = [](const float* in, float* out) {
-        const ConeBands<float> bands = cone_bands(Sky(in[0]));
-        out[0] = bands.constant;
-        out[1] = bands.linear;
-        out[2] = bands.quadratic;
-      }};
+      .evaluate =
+          [](const float* in, float* out) {
+            const ConeBands<float> bands = cone_bands(Sky(in[0]));
+            out[0] = bands.constant;
+            out[1] = bands.linear;
+            out[2] = bands.quadratic;
+          },
+      .ulps = 2};
 }
 
 /// Coefficients `first` and so many after it.
 ShaderFunction cone_harmonics_function(const std::string& name, int first, int count, const char* text) {
-  return {
-      .name = name,
-      .formula =
-          "The same as coefficients " + std::to_string(first) +
-          (count > 1 ? " to " + std::to_string(first + count - 1) : "") +
-          " of nine real harmonics (Y00, Y1-1, Y10, Y11, Y2-2, Y2-1, Y20, Y21, Y22, orthonormal, without "
-          "the Condon-Shortley phase): E/pi is their dot product with the sky's",
-      .source = "Jimenez et al. 2016, eqs. 17, 22 and 23",
-      .error = "as heightlight_cone_bands",
-      .inputs = {sky_input(),
-                 {.name = "axis",
-                  .meaning = "the bent normal, in the axes of the sky's harmonics",
-                  .components = 3,
-                  .low = -1,
-                  .high = 1,
-                  .is_clamped = false,
-                  .is_unit = true}},
-      .components = count,
-      .text = text,
-      .twin = "cone_harmonics",
-      .evaluate = [first, count](const float* in, float* out) {
-        const std::array<double, 9> all = cone_harmonics(SkyViewFactor(double{in[0]}), {in[1], in[2], in[3]});
-        for (int i = 0; i < count; ++i) out[i] = static_cast<float>(all[static_cast<std::size_t>(first + i)]);
-      }};
+  return {.name = name,
+          .formula =
+              std::string("The same as coefficient") +
+              (count > 1 ? "s " + std::to_string(first) + " to " : " ") + std::to_string(first + count - 1) +
+              " of nine real harmonics (Y00, Y1-1, Y10, Y11, Y2-2, Y2-1, Y20, Y21, Y22, orthonormal, without "
+              "the Condon-Shortley phase): E/pi is their dot product with the sky's",
+          .source = "Jimenez et al. 2016, eqs. 17, 22 and 23",
+          .error = "as heightlight_cone_bands",
+          .inputs = {sky_input(),
+                     {.name = "axis",
+                      .meaning = "the bent normal, in the axes of the sky's harmonics",
+                      .components = 3,
+                      .low = -1,
+                      .high = 1,
+                      .is_clamped = false,
+                      .is_unit = true}},
+          .components = count,
+          .text = text,
+          .twin = "cone_harmonics",
+          .evaluate =
+              [first, count](const float* in, float* out) {
+                const std::array<double, 9> all =
+                    cone_harmonics(SkyViewFactor(double{in[0]}), {in[1], in[2], in[3]});
+                for (int i = 0; i < count; ++i)
+                  out[i] = static_cast<float>(all[static_cast<std::size_t>(first + i)]);
+              },
+          .ulps = 2};
 }
 
 // The lists

@@ -19,10 +19,10 @@ constexpr const char* kFormsHead =
 )";
 
 constexpr const char* kCountOnce =
-    R"(// Count bounces once. What these functions return for an albedo above 0 holds all bounces already: multiply
-// the sky's diffuse light by it, and feed it to nothing that brightens occlusion again: no second of these
-// functions, no "multi-bounce" or "coloured" AO of an engine, no screen-space or traced bounce of the same relief,
-// no baked light that holds it. An engine's own multi-bounce wants the plain A (sky).
+    R"(// Count bounces once. What functions of an albedo return holds all bounces already: multiply the sky's diffuse
+// light by it, and feed it to nothing that brightens occlusion again: not to another of these functions, no
+// "multi-bounce" or "coloured" AO of an engine, no screen-space or traced bounce of the same relief, no baked
+// light that holds it. An engine that does one of these wants the plain A (sky).
 )";
 
 constexpr const char* kStoredPairHead =
@@ -46,11 +46,10 @@ const char* describe_language(ShaderLanguage language) {
              "for three "
              "albedos\n// end in _rgb.\n";
     case ShaderLanguage::godot:
-      return "// Godot 4, to be included: #include \"heightlight.gdshaderinc\". Not validated by Godot; its "
-             "text, which "
-             "is GLSL\n// too, is executed as such and compared with the C++ in Heightlight's tests. "
-             "Functions for "
-             "three albedos end\n// in _rgb.\n";
+      return "// Godot 4, to be included: #include \"heightlight.gdshaderinc\". Compiled by Godot 3.2 in "
+             "Heightlight's tests, not\n// by Godot 4; as GLSL, which it is too, executed there and compared "
+             "with "
+             "the C++. Functions for three albedos\n// end in _rgb.\n";
   }
   return "";
 }
@@ -87,37 +86,35 @@ std::string print_function(const ShaderFunction& function, ShaderLanguage langua
   return text + print_source(function.text, language);
 }
 
-/// `names` and what they call, in the order of the list.
-std::vector<ShaderFunction> with_parts(const std::vector<std::string>& names) {
+/// What of the list is called in `text`, and what that calls, in the order of the list.
+std::vector<ShaderFunction> called_in(std::string text) {
   const std::vector<ShaderFunction>& all = shader_functions();
-  std::vector<ShaderFunction> chosen;
-  std::string calls;
-  for (const std::string& name : names) calls += name + '(';
+  std::vector<ShaderFunction> called;
   for (auto function = all.rbegin(); function != all.rend(); ++function) {  // callers before what they call
-    if (calls.find(function->name + '(') == std::string::npos) continue;
-    calls += function->text;
-    chosen.insert(chosen.begin(), *function);
+    if (text.find(function->name + '(') == std::string::npos) continue;
+    text += function->text;
+    called.insert(called.begin(), *function);
   }
-  return chosen;
+  return called;
 }
 
-/// A form of the list of closed forms, and the functions that it is.
+/// A form of the list of closed forms, and the calls that it is.
 struct ShadedForm {
   std::string form;
-  std::vector<std::string> functions;
+  std::string calls;
 };
 
 const std::vector<ShadedForm>& shaded_forms() {
   static const std::vector<ShadedForm> forms{
-      {kNotesText.name, {"heightlight_notes"}},
-      {"notes_guarded", {"heightlight_notes"}},
-      {kUniformNeighbourhoodText.name, {"heightlight_uniform_neighbourhood"}},
-      {kCubicText.name, {"heightlight_cubic"}},
-      {kBouncedText.name, {"heightlight_bounced"}},
-      {kSeenFromSkyText.name, {"heightlight_bounced", "heightlight_seen_from_sky"}},
-      {kSeenFromMapText.name, {"heightlight_bounced", "heightlight_seen_from_map"}},
-      {kSeenFromDeepText.name, {"heightlight_bounced", "heightlight_seen_from_deep"}},
-      {kSeenFromBlurText.name, {"heightlight_bounced", "heightlight_seen_from_blur"}},
+      {kNotesText.name, "heightlight_notes()"},
+      {"notes_guarded", "heightlight_notes()"},
+      {kUniformNeighbourhoodText.name, "heightlight_uniform_neighbourhood()"},
+      {kCubicText.name, "heightlight_cubic()"},
+      {kBouncedText.name, "heightlight_bounced()"},
+      {kSeenFromSkyText.name, "heightlight_bounced(heightlight_seen_from_sky())"},
+      {kSeenFromMapText.name, "heightlight_bounced(heightlight_seen_from_map())"},
+      {kSeenFromDeepText.name, "heightlight_bounced(heightlight_seen_from_deep())"},
+      {kSeenFromBlurText.name, "heightlight_bounced(heightlight_seen_from_blur())"},
   };
   return forms;
 }
@@ -144,7 +141,8 @@ std::string print_shader(const std::vector<ShaderFunction>& functions, ShaderLan
 std::string shader_library_mark() { return "// Heightlight's formulas as shader functions"; }
 
 std::string shader_library(ShaderLanguage language) {
-  return shader_library_mark() + ", version " HEIGHTLIGHT_VERSION ", written by: heightlight shaders\n" +
+  return shader_library_mark() +
+         ", version " HEIGHTLIGHT_VERSION ", written by: heightlight shaders, which replaces it\n" +
          describe_language(language) +
          "//\n// Irradiance is E/pi, that of an open place being 1. Two kinds of ambient occlusion, both 1 = "
          "open, "
@@ -167,17 +165,26 @@ std::string shader_text(ShaderLanguage language, const ShaderConstants& constant
   return forms_head() + print_shader(functions, language);
 }
 
+std::string own_shader(const std::vector<ShaderFunction>& own, ShaderLanguage language) {
+  std::string text;
+  for (const ShaderFunction& function : own) text += function.text;
+  std::vector<ShaderFunction> functions = called_in(text);
+  for (ShaderFunction& function : functions) function.is_per_channel = false;  // as parts of others
+  functions.insert(functions.end(), own.begin(), own.end());
+  return print_shader(functions, language);
+}
+
 std::string form_shader(const std::string& name, ShaderLanguage language) {
   std::string known;
   for (const ShadedForm& form : shaded_forms()) {
     known += (known.empty() ? "" : ", ") + form.form;
-    if (form.form == name) return forms_head() + print_shader(with_parts(form.functions), language);
+    if (form.form == name) return forms_head() + print_shader(called_in(form.calls), language);
   }
   throw UsageError("form", name, "has no shader; these have: " + known);
 }
 
 std::string stored_pair_shader(ShaderLanguage language) {
-  std::vector<ShaderFunction> functions = with_parts({"multi_bounce"});
+  std::vector<ShaderFunction> functions = called_in("multi_bounce()");
   for (ShaderFunction& function : functions) function.is_per_channel = false;  // which it is itself
   return std::string(kStoredPairHead) + "//\n" + kCountOnce + '\n' + print_shader(functions, language);
 }

@@ -19,7 +19,7 @@ constexpr FormArgument kFormArguments[] = {
     {FormInput::seen, "seen", "n", "n, the mean sky view factor of what is seen"}};
 
 /// How far shaders' powers and exponentials stray, at a few in a formula.
-constexpr double kFormulaUlps = 512;
+constexpr double kFormulaUlps = 16;
 
 /// x^k. Of a negative x and a k that is no whole number, where it has no value, it is −|x|^k.
 float raise(float x, float k) {
