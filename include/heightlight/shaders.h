@@ -9,10 +9,12 @@
 
 // Formulas of this library as functions of shading languages. Each has one text, in the part of GLSL that all
 // of the languages have under one name or another, from which it is printed in each:
-//   * functions of `float`, `vec2`, `vec3` and `vec4`, their heads in one line that begins without a space;
-//   * statements `TYPE NAME = …;`, `return …;` and `if (…) { return …; }`, each begun in a line of its own;
-//   * no ?:, no array, no integer, no function that a language calls otherwise but mix, fract and
-//   inversesqrt.
+//   * functions of `float`, `vec2`, `vec3`, `vec4` and arrays of them, their heads in one line that begins
+//     without a space;
+//   * a statement begins a line of its own: `TYPE NAME = …;` of one of these types or `int`, `NAME += …;`,
+//     `return …;`, `if (…) { …; }`, `for (int NAME = …; …; …) {`, all bodies in braces;
+//   * atan of two arguments is atan2; mix, fract and inversesqrt are GLSL's; no ?:, nothing else that a
+//     language calls otherwise, no array but arguments, no argument that changes.
 
 namespace heightlight {
 
@@ -36,11 +38,17 @@ struct ShaderInput {
   std::string name;
   std::string meaning;
   int components = 1;  ///< of a vector, 1 for a float
+  int elements = 0;    ///< of an array; 0 for none
   double low = 0;      ///< least and greatest value that makes sense
   double high = 1;
   bool is_clamped = true;  ///< what is outside is taken for the nearer end
   bool is_unit = false;    ///< a vector of length 1
 };
+
+/// How many floats an argument is.
+inline int float_count(const ShaderInput& input) {
+  return input.components * (input.elements > 0 ? input.elements : 1);
+}
 
 /// One function that shaders get.
 struct ShaderFunction {

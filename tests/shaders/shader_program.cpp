@@ -14,23 +14,36 @@ std::string type_name(int components, ShaderLanguage language) {
   return (language == ShaderLanguage::hlsl ? "float" : "vec") + std::to_string(components);
 }
 
-/// The argument of a call, read from the sample's floats from `first` on.
-std::string read_argument(const ShaderInput& input, int first, ShaderLanguage language) {
+/// A value, read from the sample's floats from `first` on.
+std::string read_value(int components, int first, ShaderLanguage language) {
   std::string floats;
-  for (int c = 0; c < input.components; ++c)
+  for (int c = 0; c < components; ++c)
     floats += (c == 0 ? "" : ", ") + ("given[g + " + std::to_string(first + c) + "u]");
-  return input.components == 1 ? floats : type_name(input.components, language) + '(' + floats + ')';
+  return components == 1 ? floats : type_name(components, language) + '(' + floats + ')';
+}
+
+/// An array of the name that its input has, filled from the sample's floats from `first` on.
+std::string read_array(const ShaderInput& input, int first, ShaderLanguage language) {
+  std::string text = "  " + type_name(input.components, language) + ' ' + input.name + '[' +
+                     std::to_string(input.elements) + "];\n";
+  for (int i = 0; i < input.elements; ++i)
+    text += "  " + input.name + '[' + std::to_string(i) +
+            "] = " + read_value(input.components, first + i * input.components, language) + ";\n";
+  return text;
 }
 
 /// One sample: i is its number.
 std::string apply_to_sample(const ShaderFunction& function, ShaderLanguage language) {
   std::string arguments;
+  std::string arrays;
   int floats = 0;
   for (const ShaderInput& input : function.inputs) {
-    arguments += (arguments.empty() ? "" : ", ") + read_argument(input, floats, language);
-    floats += input.components;
+    arguments += (arguments.empty() ? "" : ", ") +
+                 (input.elements > 0 ? input.name : read_value(input.components, floats, language));
+    if (input.elements > 0) arrays += read_array(input, floats, language);
+    floats += float_count(input);
   }
-  std::string text = "  uint g = i * " + std::to_string(floats) + "u;\n  " +
+  std::string text = "  uint g = i * " + std::to_string(floats) + "u;\n" + arrays + "  " +
                      type_name(function.components, language) + " value = " + function.name + '(' +
                      arguments + ");\n";
   for (int c = 0; c < function.components; ++c) {
@@ -79,7 +92,7 @@ std::vector<std::uint32_t> compile_program(const std::string& program, ShaderLan
 
 int input_floats(const ShaderFunction& function) {
   int floats = 0;
-  for (const ShaderInput& input : function.inputs) floats += input.components;
+  for (const ShaderInput& input : function.inputs) floats += float_count(input);
   return floats;
 }
 

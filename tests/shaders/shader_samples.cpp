@@ -1,7 +1,7 @@
 #include "shaders/shader_samples.h"
 
+#include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <random>
 
@@ -29,7 +29,7 @@ Values edge_values(const ShaderInput& input, std::size_t number, std::size_t pla
     return {direction.begin(), direction.end()};
   }
   Values values;
-  for (int c = 0; c < input.components; ++c) {
+  for (int c = 0; c < float_count(input); ++c) {
     values.push_back(at_place(input, kPlaces.at(number % places)));
     number /= places;
   }
@@ -46,7 +46,7 @@ Values drawn_values(const ShaderInput& input, std::mt19937& random) {
             static_cast<float>(z)};
   }
   Values values;
-  for (int c = 0; c < input.components; ++c) {
+  for (int c = 0; c < float_count(input); ++c) {
     const double place = draw();
     constexpr double kBeyond = 0.1;
     values.push_back(at_place(input, input.is_clamped ? place * (1 + 2 * kBeyond) - kBeyond : place));
@@ -56,9 +56,16 @@ Values drawn_values(const ShaderInput& input, std::mt19937& random) {
 
 std::size_t edge_count(const ShaderInput& input, std::size_t places) {
   if (input.is_unit) return kDirections.size();
-  std::size_t count = 1;
-  for (int c = 0; c < input.components; ++c) count *= places;
-  return count;
+  return static_cast<std::size_t>(std::min(std::pow(static_cast<double>(places), float_count(input)), 1e9));
+}
+
+/// Values at edges, whichever.
+Values drawn_edges(const ShaderInput& input, std::mt19937& random) {
+  if (input.is_unit) return edge_values(input, random() % kDirections.size(), kPlaces.size());
+  Values values;
+  for (int c = 0; c < float_count(input); ++c)
+    values.push_back(at_place(input, kPlaces[random() % kPlaces.size()]));
+  return values;
 }
 
 }  // namespace
@@ -67,20 +74,21 @@ std::vector<float> sample_inputs(const ShaderFunction& function, std::size_t sam
   std::size_t places = kPlaces.size();
   const auto combinations = [&] {
     std::size_t count = 1;
-    for (const ShaderInput& input : function.inputs) count *= edge_count(input, places);
+    for (const ShaderInput& input : function.inputs) count *= std::min(edge_count(input, places), samples);
     return count;
   };
-  while (2 * combinations() > samples) --places;
-  assert(places >= 2);
-  const std::size_t edges = combinations();
+  while (places > 2 && 2 * combinations() > samples) --places;
+  const bool are_all = 2 * combinations() <= samples;
+  const std::size_t edges = are_all ? combinations() : samples / 2;
   std::mt19937 random(7);
   std::vector<float> inputs;
   for (std::size_t i = 0; i < samples; ++i) {
     std::size_t rest = i;
     for (const ShaderInput& input : function.inputs) {
-      const std::size_t count = edge_count(input, places);
-      const Values values =
-          i < edges ? edge_values(input, rest % count, places) : drawn_values(input, random);
+      const std::size_t count = std::min(edge_count(input, places), samples);
+      const Values values = i >= edges ? drawn_values(input, random)
+                            : !are_all ? drawn_edges(input, random)
+                                       : edge_values(input, rest % count, places);
       rest /= count;
       inputs.insert(inputs.end(), values.begin(), values.end());
     }

@@ -8,6 +8,7 @@
 
 #include "heightlight/shaders.h"
 #include "scratch_folder.h"
+#include "shaders/shader_print.h"
 
 namespace heightlight {
 namespace {
@@ -142,6 +143,23 @@ TEST_CASE("shaders are written as each language has them", "[shaders]") {
             "fn f_rgb(x: f32, albedo: vec3<f32>) -> vec3<f32> {\n  return vec3<f32>(f(x, albedo.x), f(x, "
             "albedo.y), "
             "f(x, albedo.z));\n}\n");
+}
+
+TEST_CASE("loops, arrays and variables of shaders are written as each language has them", "[shaders]") {
+  const std::string text =
+      "float turn(float slope[8], vec3 d) {\n  float sum = 0.0;\n  float part = 0.125;\n  int last = 7;\n"
+      "  if (d.z > 0.0) { last = 6; }\n  for (int i = 0; i < 8; i++) {\n    if (i > last) { continue; }\n"
+      "    sum += part * slope[i];\n  }\n  return sum + atan2(d.y, d.x) * float(last);\n}\n";
+  CHECK(print_source(text, ShaderLanguage::glsl) ==
+        "float turn(float slope[8], vec3 d) {\n  float sum = 0.0;\n  float part = 0.125;\n  int last = 7;\n"
+        "  if (d.z > 0.0) { last = 6; }\n  for (int i = 0; i < 8; i++) {\n    if (i > last) { continue; }\n"
+        "    sum += part * slope[i];\n  }\n  return sum + atan(d.y, d.x) * float(last);\n}\n");
+  CHECK(print_source(text, ShaderLanguage::wgsl) ==
+        "fn turn(slope: array<f32, 8>, d: vec3<f32>) -> f32 {\n  var sum: f32 = 0.0;\n  let part: f32 = "
+        "0.125;\n"
+        "  var last: i32 = 7;\n  if (d.z > 0.0) { last = 6; }\n  for (var i: i32 = 0; i < 8; i++) {\n"
+        "    if (i > last) { continue; }\n    sum += part * slope[i];\n  }\n"
+        "  return sum + atan2(d.y, d.x) * f32(last);\n}\n");
 }
 
 TEST_CASE("the shader beside ao-n maps gives 1 where bounced_total does, at n = 0 and albedo 1",

@@ -1,34 +1,39 @@
 #include "shaders/shader_print.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <sstream>
+#include <string_view>
 
 namespace heightlight {
 namespace {
 
-/// What a language calls otherwise than GLSL and Godot do.
+/// What languages call by several names; Godot's has GLSL's.
 struct ShaderWord {
+  const char* here;  ///< in the texts
   const char* glsl;
   const char* hlsl;
   const char* wgsl;
 };
 constexpr std::array kShaderWords{
-    ShaderWord{"float", "float", "f32"},
-    ShaderWord{"vec2", "float2", "vec2<f32>"},
-    ShaderWord{"vec3", "float3", "vec3<f32>"},
-    ShaderWord{"vec4", "float4", "vec4<f32>"},
-    ShaderWord{"mix", "lerp", "mix"},
-    ShaderWord{"fract", "frac", "fract"},
-    ShaderWord{"inversesqrt", "rsqrt", "inverseSqrt"},
+    ShaderWord{"float", "float", "float", "f32"},
+    ShaderWord{"vec2", "vec2", "float2", "vec2<f32>"},
+    ShaderWord{"vec3", "vec3", "float3", "vec3<f32>"},
+    ShaderWord{"vec4", "vec4", "float4", "vec4<f32>"},
+    ShaderWord{"int", "int", "int", "i32"},
+    ShaderWord{"mix", "mix", "lerp", "mix"},
+    ShaderWord{"fract", "fract", "frac", "fract"},
+    ShaderWord{"inversesqrt", "inversesqrt", "rsqrt", "inverseSqrt"},
+    ShaderWord{"atan2", "atan", "atan2", "atan2"},
 };
-constexpr std::size_t kTypeCount = 4;  ///< of the words above, the first
+constexpr std::size_t kTypeCount = 5;  ///< of the words above, the first
 
 constexpr const char* kWordCharacters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789";
 
 std::string print_word(const std::string& word, ShaderLanguage language) {
   for (const ShaderWord& known : kShaderWords) {
-    if (word != known.glsl) continue;
+    if (word != known.here) continue;
     return language == ShaderLanguage::hlsl   ? known.hlsl
            : language == ShaderLanguage::wgsl ? known.wgsl
                                               : known.glsl;
@@ -48,12 +53,20 @@ std::string print_words(const std::string& line, ShaderLanguage language) {
   return printed;
 }
 
-/// "TYPE NAME" as WGSL has it, "NAME: TYPE".
+bool is_type(const std::string& word) {
+  return std::any_of(kShaderWords.begin(), kShaderWords.begin() + kTypeCount,
+                     [&](const ShaderWord& type) { return word == type.here; });
+}
+
+/// "TYPE NAME", or "TYPE NAME[COUNT]", as WGSL has it.
 std::string declare_in_wgsl(const std::string& declaration) {
   const std::size_t space = declaration.find(' ');
   assert(space != std::string::npos);
-  return declaration.substr(space + 1) + ": " +
-         print_word(declaration.substr(0, space), ShaderLanguage::wgsl);
+  const std::string type = print_word(declaration.substr(0, space), ShaderLanguage::wgsl);
+  const std::size_t bracket = declaration.find('[');
+  if (bracket == std::string::npos) return declaration.substr(space + 1) + ": " + type;
+  const std::string count = declaration.substr(bracket + 1, declaration.find(']') - bracket - 1);
+  return declaration.substr(space + 1, bracket - space - 1) + ": array<" + type + ", " + count + '>';
 }
 
 /// "TYPE NAME(TYPE NAME, …) {" as WGSL has it.
@@ -72,19 +85,36 @@ std::string print_wgsl_head(const std::string& line) {
          print_word(line.substr(0, space), ShaderLanguage::wgsl) + " {";
 }
 
-/// Declarations in WGSL begin with `let`, or are heads of functions.
-std::string print_wgsl_line(const std::string& line) {
-  const std::size_t begin = line.find_first_not_of(' ');
-  for (std::size_t i = 0; i < kTypeCount && begin != std::string::npos; ++i) {
-    const std::string type = std::string(kShaderWords[i].glsl) + ' ';
-    if (line.compare(begin, type.size(), type) != 0) continue;
-    if (begin == 0) return print_wgsl_head(line);
-    const std::size_t equals = line.find(" = ", begin);
-    assert(equals != std::string::npos);
-    return line.substr(0, begin) + "let " + declare_in_wgsl(line.substr(begin, equals - begin)) +
-           print_words(line.substr(equals), ShaderLanguage::wgsl);
+/// Whether a statement of the text, other than its declaration, gives a variable a value.
+bool is_assigned(const std::string& text, const std::string& name) {
+  for (const char* operation : {" = ", " += ", " -= ", " *= "}) {
+    const std::string assignment = ' ' + name + operation;
+    for (std::size_t at = text.find(assignment); at != std::string::npos;
+         at = text.find(assignment, at + 1)) {
+      const std::size_t before = text.find_last_not_of(kWordCharacters, at - 1) + 1;
+      if (!is_type(text.substr(before, at - before))) return true;
+    }
   }
-  return print_words(line, ShaderLanguage::wgsl);
+  return false;
+}
+
+/// A line of a text. Where something is declared, that is the head of a function; a variable, which begins
+/// with `let` where it keeps its value; or that of a loop.
+std::string print_wgsl_line(const std::string& line, const std::string& text) {
+  constexpr std::string_view kLoop = "for (";
+  std::size_t begin = std::min(line.find_first_not_of(' '), line.size());
+  const bool is_loop = line.compare(begin, kLoop.size(), kLoop) == 0;
+  if (is_loop) begin += kLoop.size();
+  const std::size_t space = line.find(' ', begin);
+  if (space == std::string::npos || !is_type(line.substr(begin, space - begin)))
+    return print_words(line, ShaderLanguage::wgsl);
+  if (begin == 0) return print_wgsl_head(line);
+  const std::size_t equals = line.find(" = ", begin);
+  assert(equals != std::string::npos);
+  const bool varies = is_loop || is_assigned(text, line.substr(space + 1, equals - space - 1));
+  return line.substr(0, begin) + (varies ? "var " : "let ") +
+         declare_in_wgsl(line.substr(begin, equals - begin)) +
+         print_words(line.substr(equals), ShaderLanguage::wgsl);
 }
 
 }  // namespace
@@ -96,7 +126,7 @@ std::string print_source(const std::string& text, ShaderLanguage language) {
     if (line.starts_with("//")) {
       printed += line;
     } else if (language == ShaderLanguage::wgsl) {
-      printed += print_wgsl_line(line);
+      printed += print_wgsl_line(line, text);
     } else {
       printed += print_words(line, language);
     }
