@@ -30,6 +30,16 @@ constexpr const char* kStoredPairHead =
     "of the\n"
     "// two channels of a map that heightlight bake --maps ao-n wrote. Stands alone.\n";
 
+constexpr const char* kLibraryHead =
+    R"(// Irradiance is E/pi, that of an open place being 1. Two kinds of ambient occlusion, both 1 = open, which must not
+// be taken for each other:
+//   alpha  plain share of the hemisphere's solid angle that sees the sky
+//   sky    A, the same, cosine weighted (the AO of GTAO)
+// Measured errors: per texel on 43 map x relief cases of 17 materials, an even sky (plots/data/models.csv of
+// Heightlight's sources), of its own forms on materials that their constants were not fitted to; of cones:
+// plots/data/directional.csv. docs/shaders.md tells which function is for what. May be used without attribution.
+)";
+
 /// What a file says of its language.
 const char* describe_language(ShaderLanguage language) {
   switch (language) {
@@ -143,19 +153,8 @@ std::string shader_library_mark() { return "// Heightlight's formulas as shader 
 std::string shader_library(ShaderLanguage language) {
   return shader_library_mark() +
          ", version " HEIGHTLIGHT_VERSION ", written by: heightlight shaders, which replaces it\n" +
-         describe_language(language) +
-         "//\n// Irradiance is E/pi, that of an open place being 1. Two kinds of ambient occlusion, both 1 = "
-         "open, "
-         "which must not\n// be taken for each other:\n//   alpha  plain share of the hemisphere's solid "
-         "angle that "
-         "sees the sky\n//   sky    A, the same, cosine weighted (the AO of GTAO)\n// Measured errors: per "
-         "texel on "
-         "43 map x relief cases of 17 materials, an even sky (plots/data/models.csv of\n// Heightlight's "
-         "sources), of "
-         "its own forms on materials that their constants were not fitted to; of cones:\n// "
-         "plots/data/directional.csv."
-         "\n//\n" +
-         kCountOnce + '\n' + print_shader(shader_functions(), language);
+         describe_language(language) + "//\n" + kLibraryHead + "//\n" + kCountOnce + '\n' +
+         print_shader(shader_functions(), language);
 }
 
 std::string shader_text(ShaderLanguage language, const ShaderConstants& constants,
