@@ -126,23 +126,23 @@ TEST_CASE("shaders are written as each language has them", "[shaders]") {
   const std::string same = "\n// The same for albedos of three channels.\n";
   CHECK(print_shader(one, ShaderLanguage::glsl) ==
         comment + one[0].text + same +
-            "vec3 f(float x, vec3 albedo) {\n  return vec3(f(x, albedo.x), "
-            "f(x, albedo.y), f(x, albedo.z));\n}\n");
+            "vec3 f(float x, vec3 albedo) {\n  return vec3(f(x, albedo.x),\n    f(x, albedo.y),\n    f(x, "
+            "albedo.z));\n}\n");
   CHECK(print_shader(one, ShaderLanguage::hlsl) ==
         comment +
             "float f(float x, float albedo) {\n  float2 pair = float2(x, frac(albedo));\n"
             "  if (x <= 0.0) { return 1.0; }\n  return lerp(pair.x, pair.y, rsqrt(x));\n}\n" +
             same +
-            "float3 f(float x, float3 albedo) {\n  return float3(f(x, albedo.x), f(x, albedo.y), f(x, "
+            "float3 f(float x, float3 albedo) {\n  return float3(f(x, albedo.x),\n    f(x, albedo.y),\n    "
+            "f(x, "
             "albedo.z));\n}\n");
   CHECK(print_shader(one, ShaderLanguage::wgsl) ==
         comment +
             "fn f(x: f32, albedo: f32) -> f32 {\n  let pair: vec2<f32> = vec2<f32>(x, fract(albedo));\n"
             "  if (x <= 0.0) { return 1.0; }\n  return mix(pair.x, pair.y, inverseSqrt(x));\n}\n" +
             same +
-            "fn f_rgb(x: f32, albedo: vec3<f32>) -> vec3<f32> {\n  return vec3<f32>(f(x, albedo.x), f(x, "
-            "albedo.y), "
-            "f(x, albedo.z));\n}\n");
+            "fn f_rgb(x: f32, albedo: vec3<f32>) -> vec3<f32> {\n  return vec3<f32>(f(x, albedo.x),\n"
+            "    f(x, albedo.y),\n    f(x, albedo.z));\n}\n");
 }
 
 TEST_CASE("loops, arrays and variables of shaders are written as each language has them", "[shaders]") {

@@ -152,10 +152,10 @@ ShaderFunction for_three_albedos(const ShaderFunction& function, ShaderLanguage 
     passed += function.inputs[i].name + ", ";
     ++before;
   }
-  const std::string albedo = function.inputs.back().name;
-  const std::string call = function.name + '(' + passed + albedo;
-  three.text = "vec3 " + three.name + '(' + declared + "vec3 " + albedo + ") {\n  return vec3(" + call +
-               ".x), " + call + ".y), " + call + ".z));\n}\n";
+  const std::string call = function.name + '(' + passed + "albedo.";
+  three.inputs.back().name = "albedo";
+  three.text = "vec3 " + three.name + '(' + declared + "vec3 albedo) {\n  return vec3(" + call + "x),\n    " +
+               call + "y),\n    " + call + "z));\n}\n";
   three.evaluate = [one = function.evaluate, before](const float* inputs, float* results) {
     std::vector<float> values(inputs, inputs + before + 1);
     for (std::size_t c = 0; c < kChannels; ++c) {
