@@ -6,6 +6,7 @@
 #include "shaders/shader_print.h"
 #include "shaders/shader_program.h"
 #include "shaders/shader_samples.h"
+#include "shaders/trial_function.h"
 #include "user_form/user_form.h"
 
 // The text that is emitted, compiled by glslang, executed on Vulkan by Mesa's lavapipe, and compared with the
@@ -197,6 +198,14 @@ TEST_CASE("the shaders of a fit and of users' forms, executed, are equal to the 
   for (ShaderFunction& function : own_functions()) functions.push_back(std::move(function));
   for (const ShaderLanguage language : kExecuted)
     check_functions(*compute, shader_text(language, other_constants(), own_functions()), functions, language);
+}
+
+TEST_CASE("loops and arrays of shaders, executed, are what they are in C++", "[shaders][slow]") {
+  ComputeDevice* compute = device();
+  if (!compute) return;
+  const std::vector<ShaderFunction> trial{trial_function()};
+  for (const ShaderLanguage language : kExecuted)
+    check_functions(*compute, print_shader(trial, language), trial, language);
 }
 
 TEST_CASE("the shader beside ao-n maps, executed, is bounced_total", "[shaders][slow]") {

@@ -5,6 +5,7 @@
 #include "heightlight/shaders.h"
 #include "scratch_folder.h"
 #include "shaders/shader_program.h"
+#include "shaders/trial_function.h"
 #include "user_form/user_form.h"
 
 // What is not executed is validated at least: WGSL by Dawn's compiler, which is Chromium's, and Godot's
@@ -62,6 +63,23 @@ std::string fitted_text(ShaderLanguage language) {
 
 }  // namespace
 
+TEST_CASE("glslang takes the GLSL from 1.30 on, and in GLSL ES 3.00", "[shaders]") {
+  if (!has_command("glslangValidator")) {
+    WARN("SKIPPED: no glslangValidator here (scripts/install-packages --tests)");
+    return;
+  }
+  for (const char* head : {"#version 130\n", "#version 300 es\nprecision highp float;\n"}) {
+    const ScratchFolder scratch;
+    write_text(scratch / "shader.frag",
+               head + shader_library(ShaderLanguage::glsl) +
+                   "out vec4 colour;\nvoid main() {\n  colour = vec4(multi_bounce(vec2(0.5, "
+                   "0.5), vec3(0.5)), 1.0);\n}\n");
+    const Verdict verdict = run_shell("glslangValidator shader.frag", scratch);
+    INFO(verdict.said);
+    CHECK(verdict.status == 0);
+  }
+}
+
 TEST_CASE("Dawn finds the WGSL valid", "[shaders]") {
   if (!has_command("node") || !std::filesystem::exists(kDawn)) {
     WARN(
@@ -71,7 +89,8 @@ TEST_CASE("Dawn finds the WGSL valid", "[shaders]") {
   }
   const std::string library = shader_library(ShaderLanguage::wgsl);
   for (const std::string& text :
-       {library, fitted_text(ShaderLanguage::wgsl), stored_pair_shader(ShaderLanguage::wgsl)}) {
+       {library, fitted_text(ShaderLanguage::wgsl), stored_pair_shader(ShaderLanguage::wgsl),
+        print_shader({trial_function()}, ShaderLanguage::wgsl)}) {
     const Verdict verdict = validate_wgsl(text);
     INFO(verdict.said);
     CHECK(verdict.status == 0);
