@@ -6,12 +6,12 @@
 #include <cmath>
 #include <set>
 
-#include "bake/baked_files.h"
 #include "bake/baked_map.h"
 #include "bake/blue_noise.h"
 #include "bake/former_bake.h"
 #include "bake/sidecar.h"
 #include "bake/texel_encoding.h"
+#include "bake/texture_files.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "files/esri_grid_write.h"

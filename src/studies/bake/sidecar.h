@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bake/baked_files.h"
+#include "bake/texture_files.h"
 #include "files/file_record.h"
 
 namespace heightlight {

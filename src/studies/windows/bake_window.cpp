@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bake/baked_files.h"
 #include "bake/material.h"
+#include "bake/texture_files.h"
 #include "base/texels.h"
 #include "files/geotiff_place.h"
 #include "heightlight/error.h"

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <system_error>
 
-#include "bake/baked_files.h"
+#include "bake/texture_files.h"
 #include "windows/sky_maps.h"
 #include "windows/windowed_bake.h"
 #include "windows/work_check.h"
