@@ -93,12 +93,6 @@ TextureDepth parse_depth(const std::string& text, TextureFormat format, bool is_
                           : TextureDepth::real;
 }
 
-/// What the file tells a place of, or the user a spacing and that nothing lies beyond it.
-bool is_terrain(const LoadOptions& load, const std::filesystem::path& map) {
-  if (load.texel && load.boundary == Boundary::open) return true;
-  return load.boundary != Boundary::tile && is_terrain_file(map);
-}
-
 }  // namespace
 
 void parse_bake_options(BakeCommand& command) {
@@ -124,7 +118,7 @@ void parse_bake_options(BakeCommand& command) {
 
 BakeOptions options_for(const BakeCommand& command, const std::filesystem::path& map) {
   BakeOptions options = command.options;
-  const bool terrain = is_terrain(command.load, map);
+  const bool terrain = is_loaded_as_terrain(command.load, map);
   options.format = command.format.empty() && terrain ? TextureFormat::tif : parse_format(command.format);
   options.depth = parse_depth(command.depth, options.format, terrain);
   if (has_own_light(command.light)) options.light_channels = count_light_channels(command.light);

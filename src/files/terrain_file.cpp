@@ -28,4 +28,9 @@ bool is_terrain_file(const std::filesystem::path& path) {
   }
 }
 
+bool is_loaded_as_terrain(const LoadOptions& load, const std::filesystem::path& path) {
+  if (load.texel && load.boundary == Boundary::open) return true;
+  return load.boundary != Boundary::tile && is_terrain_file(path);
+}
+
 }  // namespace heightlight

@@ -65,20 +65,18 @@ void check_tiling(const fs::path& map, const WorkFacts& facts) {
       "boundary");
 }
 
-void check_side(int side) {
-  if (side % kTileSide != 0 || side < 0)
-    throw UsageError("window_side", std::to_string(side),
-                     "must be a multiple of " + std::to_string(kTileSide));
+std::uint64_t needed_bytes(const WindowGrid& grid, int first_coarse, const BakeOptions& options) {
+  return kProcessBytes + coarse_bytes(grid, first_coarse, options) +
+         window_bytes(grid, first_coarse, options);
 }
 
 /// The largest side whose windows memory holds.
 int choose_side(WindowGrid grid, int first_coarse, const BakeOptions& options) {
   constexpr std::array kSides{8192, 6144, 4096, 3072, 2048, 1536, 1024, 768, 512, 256};
-  const std::uint64_t held = kProcessBytes + coarse_bytes(grid, first_coarse, options);
   std::uint64_t needed = 0;
   for (const int side : kSides) {
     grid.side = side;
-    needed = held + window_bytes(grid, first_coarse, options);
+    needed = needed_bytes(grid, first_coarse, options);
     if (needed <= options.memory) return side;
   }
   throw MemoryError("windows of " + std::to_string(grid.side) + " × " + std::to_string(grid.side) + " of " +
@@ -86,6 +84,14 @@ int choose_side(WindowGrid grid, int first_coarse, const BakeOptions& options) {
                         " texels need " + format_byte_size(needed) + ", more than the " +
                         format_byte_size(options.memory) + " of memory allowed",
                     needed - options.memory);
+}
+
+/// Of a map whose size and boundary are known.
+void choose_windows(Work& work, int side) {
+  WorkFacts& facts = work.state.facts;
+  facts.first_coarse = choose_first_coarse(facts.grid, work.task.options);
+  check_tiling(work.task.map, facts);
+  facts.grid.side = side > 0 ? side : choose_side(facts.grid, facts.first_coarse, work.task.options);
 }
 
 /// Takes a map's rows, from which its size is first known.
@@ -114,9 +120,7 @@ class HeightsInParts {
     WorkFacts& facts = work_.state.facts;
     facts.grid = {.map_width = map.height.width, .map_height = map.height.height};
     facts.boundary = map.boundary;
-    facts.first_coarse = choose_first_coarse(facts.grid, work_.task.options);
-    check_tiling(work_.task.map, facts);
-    facts.grid.side = side_ > 0 ? side_ : choose_side(facts.grid, facts.first_coarse, work_.task.options);
+    choose_windows(work_, side_);
     rows_.emplace(heights_folder(work_));
   }
 
@@ -137,7 +141,20 @@ LoadedHeightmap load_in_parts(const WindowedTask& task, HeightsInParts& heights)
   return loaded;
 }
 
+/// Whether all that a folder holds is of such work, which may go. One that is not there holds nothing else.
+bool is_work_folder(const fs::path& folder) {
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, ignored)) {
+    const std::string kind = entry.path().extension();
+    const bool is_known = kind == ".raw" || kind == ".json" || kind == ".part";
+    if (!entry.is_directory(ignored) && !is_known) return false;
+  }
+  return true;
+}
+
 void make_folders(const Work& work) {
+  if (!is_work_folder(work.task.folder))
+    throw output_error(work.task.folder, "it holds files that are of no bake by windows");
   std::error_code failure;
   fs::remove_all(work.task.folder, failure);
   for (const char* name : {"heights", "coarse", "plan", "sky", "check", "textures"}) {
@@ -147,6 +164,12 @@ void make_folders(const Work& work) {
 }
 
 }  // namespace
+
+void check_side(int side) {
+  if (side % kTileSide != 0 || side < 0)
+    throw UsageError("window_side", std::to_string(side),
+                     "must be a multiple of " + std::to_string(kTileSide));
+}
 
 std::uint64_t window_bytes(const WindowGrid& grid, int first_coarse, const BakeOptions& options) {
   constexpr std::uint64_t kFloat = sizeof(float);
@@ -185,6 +208,21 @@ Work begin_work(WindowedTask task, int side) {
   facts.warnings = loaded.warnings;
   write_state(work.task.folder, work.state);
   return work;
+}
+
+Work begin_work_of(WindowedTask task, int side, const WorkFacts& facts) {
+  check_side(side);
+  Work work{.task = std::move(task), .state = {.facts = facts, .step = WorkStep::heights}};
+  work.state.facts.request = work.task.options.request;
+  choose_windows(work, side);
+  make_folders(work);
+  write_state(work.task.folder, work.state);
+  return work;
+}
+
+std::uint64_t process_bytes(const Work& work) {
+  const WorkFacts& facts = work.state.facts;
+  return needed_bytes(facts.grid, facts.first_coarse, work.task.options);
 }
 
 }  // namespace heightlight

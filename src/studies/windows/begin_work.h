@@ -4,6 +4,9 @@
 
 namespace heightlight {
 
+/// Throws UsageError for a window's side that is none: it must be a multiple of kTileSide, or 0.
+void check_side(int side);
+
 /// Bytes that the work on a window takes at most, beside the coarse levels of the map.
 std::uint64_t window_bytes(const WindowGrid& grid, int first_coarse, const BakeOptions& options);
 
@@ -12,5 +15,12 @@ std::uint64_t window_bytes(const WindowGrid& grid, int first_coarse, const BakeO
 /// load_heightmap does, UsageError for a side that is none, MemoryError naming what would do where no window
 /// fits.
 Work begin_work(WindowedTask task, int side);
+
+/// The same for a map of which these facts are known, the grid's side and first_coarse aside, and whose
+/// heights are made by the first step.
+Work begin_work_of(WindowedTask task, int side, const WorkFacts& facts);
+
+/// Bytes that a process at work on one window takes at most, all that it holds included.
+std::uint64_t process_bytes(const Work& work);
 
 }  // namespace heightlight

@@ -6,6 +6,9 @@
 
 namespace heightlight {
 
+/// Of the block that was given, above the base.
+void find_window_heights(const Work& work, int window);
+
 void find_coarse_blocks(const Work& work, int window);
 
 /// Crops of the map that it is planned on: the roughest, and some that are less rough; the map itself where

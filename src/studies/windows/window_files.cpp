@@ -6,24 +6,15 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <system_error>
 
 #include "files/input_file.h"
 #include "files/output_file.h"
+#include "windows/whole_file.h"
 
 namespace heightlight {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A file on its way to be whole, of this process: others may make the same one.
-fs::path unfinished(const fs::path& file) { return fmt::format("{}.{}.part", file.string(), getpid()); }
-
-void appear(const fs::path& file) {
-  std::error_code failure;
-  fs::rename(unfinished(file), file, failure);
-  if (failure) throw output_error(file, failure.message());
-}
 
 class Descriptor {
  public:

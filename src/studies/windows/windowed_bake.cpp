@@ -25,6 +25,8 @@ namespace fs = std::filesystem;
 
 const char* name_of(WorkStep step) {
   switch (step) {
+    case WorkStep::heights:
+      return "heights";
     case WorkStep::coarse:
       return "coarse levels";
     case WorkStep::plan:
@@ -42,7 +44,7 @@ const char* name_of(WorkStep step) {
     case WorkStep::done:
       break;
   }
-  return "";
+  return "done";
 }
 
 int count_parts(Work& work) {
@@ -62,6 +64,8 @@ int count_parts(Work& work) {
 fs::path part_file(const Work& work, int part) {
   const bool refines = !work.state.refined.empty();
   switch (work.state.step) {
+    case WorkStep::heights:
+      return heights_folder(work).file(part);
     case WorkStep::coarse:
       return coarse_folder(work).file(part);
     case WorkStep::plan:
@@ -157,6 +161,9 @@ void end_check(Work& work) {
 
 void advance(Work& work) {
   switch (work.state.step) {
+    case WorkStep::heights:
+      work.state.step = WorkStep::coarse;
+      return;
     case WorkStep::coarse:
       work.state.step = WorkStep::plan;
       return;
@@ -186,8 +193,14 @@ void advance(Work& work) {
   }
 }
 
-/// Files of gathers that later ones do not read.
+/// Files that later steps do not read.
 void drop_former(const Work& work) {
+  if (work.state.step > WorkStep::heights) drop_folder(given_folder(work.task.folder));
+  if (work.state.step == WorkStep::done) {
+    for (const WindowFolder& folder : {heights_folder(work), coarse_folder(work), sky_folder(work),
+                                       light_folder(work), field_folder(work, work.state.gather)})
+      drop_folder(folder.path);
+  }
   Work former = work;
   for (int k = 0; k < work.state.gather; ++k) {
     former.state.gather = k;
@@ -232,27 +245,37 @@ Work join_work(WindowedTask task) {
   return with_reach({.task = std::move(task), .state = std::move(*state)});
 }
 
-Work open_work(WindowedTask task, int side) {
+Work open_work(WindowedTask task, int side, const BeginWork& begin) {
   check_windowed(task);
   std::optional<WorkState> state = read_state(task.folder);
   const bool goes_on =
       state && state->facts.request == task.options.request && (side == 0 || side == state->facts.grid.side);
-  if (!goes_on) return with_reach(begin_work(std::move(task), side));
+  if (!goes_on) return with_reach(begin(std::move(task), side));
   return with_reach({.task = std::move(task), .state = std::move(*state)});
+}
+
+std::string stage_of(const Work& work) {
+  const bool is_of_gather = work.state.step == WorkStep::light || work.state.step == WorkStep::gather;
+  return std::string(name_of(work.state.step)) +
+         (is_of_gather ? " " + std::to_string(work.state.gather) : "");
+}
+
+bool is_done(const Work& work, int part) {
+  std::error_code ignored;
+  return fs::exists(part_file(work, part), ignored);
 }
 
 std::vector<int> pending_parts(Work& work) {
   std::vector<int> parts(static_cast<std::size_t>(count_parts(work)));
   std::iota(parts.begin(), parts.end(), 0);
-  std::erase_if(parts, [&](int part) {
-    std::error_code ignored;
-    return fs::exists(part_file(work, part), ignored);
-  });
+  std::erase_if(parts, [&](int part) { return is_done(work, part); });
   return parts;
 }
 
 void do_part(Work& work, int part) {
   switch (work.state.step) {
+    case WorkStep::heights:
+      return find_window_heights(work, part);
     case WorkStep::coarse:
       return find_coarse_blocks(work, part);
     case WorkStep::plan:

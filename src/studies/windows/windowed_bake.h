@@ -1,7 +1,9 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
+#include "windows/begin_work.h"
 #include "windows/work.h"
 
 namespace heightlight {
@@ -9,12 +11,21 @@ namespace heightlight {
 /// Throws UsageError for what bakes in one piece alone can do.
 void check_windowed(const WindowedTask& task);
 
+/// How work begins where there is none to go on with.
+using BeginWork = std::function<Work(WindowedTask task, int side)>;
+
 /// Opens the work folder of a task, or begins it (begin_work.h) where there is none, or one of another
 /// request. Of another process's work too: `side` counts where it begins.
-Work open_work(WindowedTask task, int side);
+Work open_work(WindowedTask task, int side, const BeginWork& begin = begin_work);
 
 /// The same of work that is begun. Throws Error where it is not.
 Work join_work(WindowedTask task);
+
+/// What it is called, and which gather it is of, if of one: "sky", "bounces 3".
+std::string stage_of(const Work& work);
+
+/// Whether somebody has done a part of the step at hand.
+bool is_done(const Work& work, int part);
 
 /// Parts of the step at hand that nobody has done.
 std::vector<int> pending_parts(Work& work);

@@ -48,6 +48,7 @@ struct WorkFacts {
 
 /// Steps, in the order in which they are taken; light and gather take turns.
 enum class WorkStep {
+  heights,   ///< of blocks that were given (given_heights.h); a map's file is read before the first step
   coarse,    ///< each window's blocks of the first coarse level
   plan,      ///< how to walk, from crops of the map
   sky,       ///< each window's shares of the sky
@@ -88,6 +89,8 @@ struct Work {
 /// Files of the windows, by what they hold.
 WindowFolder work_folder(const Work& work, const std::string& name, int level = 0);
 WindowFolder heights_folder(const Work& work);
+/// Beside the work folder: blocks of heights that were given (given_heights.h).
+std::filesystem::path given_folder(const std::filesystem::path& folder);
 /// A block is a float; mean and highest heights, and the highest of what occludes along cells.
 WindowFolder coarse_folder(const Work& work);
 /// A, then what else is wanted of the sky (sky_maps.h).

@@ -1,12 +1,10 @@
 #include "windows/work_json.h"
 
-#include <unistd.h>
-
-#include <string>
-#include <system_error>
+#include <limits>
 
 #include "files/evidence_json.h"
 #include "files/output_file.h"
+#include "windows/whole_file.h"
 
 namespace heightlight {
 namespace {
@@ -23,6 +21,11 @@ WalkOptions walk_of(const nlohmann::json& json) {
 }
 
 Json to_json(const FixedSum& sum) { return {sum.whole(), sum.part()}; }
+
+/// JSON knows no infinity, which is written as null: a plan by which no block is walked in full has it.
+double finite_or_infinite(const nlohmann::json& json) {
+  return json.is_null() ? std::numeric_limits<double>::infinity() : json.get<double>();
+}
 
 FixedSum sum_of(const nlohmann::json& json) { return {json.at(0), json.at(1)}; }
 
@@ -46,7 +49,7 @@ HorizonPlan plan_of(const nlohmann::json& json) {
   const nlohmann::json& sky = json.at("sky");
   const nlohmann::json& gather = json.at("gather");
   return {.sky = {.walk = walk_of(sky.at("walk")),
-                  .full_from = sky.at("full_from"),
+                  .full_from = finite_or_infinite(sky.at("full_from")),
                   .full_share = sky.at("full_share"),
                   .error = sky.at("error"),
                   .sampled = sky.at("sampled")},
@@ -84,11 +87,8 @@ ChangeSum change_of(const nlohmann::json& json) {
 }
 
 void replace_json(const std::filesystem::path& path, const nlohmann::ordered_json& json) {
-  const std::filesystem::path unfinished = path.string() + "." + std::to_string(getpid()) + ".part";
-  write_bytes(unfinished, json_text(json));
-  std::error_code failure;
-  std::filesystem::rename(unfinished, path, failure);
-  if (failure) throw output_error(path, failure.message());
+  write_bytes(unfinished(path), json_text(json));
+  appear(path);
 }
 
 }  // namespace heightlight
