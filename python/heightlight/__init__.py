@@ -14,6 +14,9 @@ it. NaN means missing, in heights and in results. Irradiance is E/pi: 1 where no
 of radiance 1.
 """
 
+from importlib import import_module
+from typing import Any
+
 from . import forms
 from ._baking import Bake, bake, maps
 from ._comparing import Comparison, compare
@@ -59,3 +62,9 @@ try:
     from . import _xarray  # noqa: F401  registers the accessor where xarray is installed
 except ImportError:
     pass
+
+
+def __getattr__(name: str) -> Any:
+    if name == "dask":  # what it needs is imported when it is asked for
+        return import_module(f"{__name__}.dask")
+    raise AttributeError(f"module {__name__} has no attribute {name}")

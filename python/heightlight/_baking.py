@@ -9,8 +9,7 @@ from typing import Any, Iterable, Optional, Union
 import numpy as np
 
 from . import _native
-from ._heights import HeightLike, surface_of
-from ._operator import split_albedo
+from ._heights import HeightLike, numbers, surface_of
 from ._settings import integer, one_of, reach_of, settings
 
 
@@ -44,6 +43,40 @@ def maps() -> dict[str, str]:
     return _native.material_maps()
 
 
+def map_names(maps: Union[str, Iterable[str]]) -> list[str]:
+    return [maps] if isinstance(maps, str) else [str(name) for name in maps]
+
+
+def bake_choice(
+    albedo: Any,
+    *,
+    reach: Any = None,
+    falloff: Any = "none",
+    uniform_ao: Any = False,
+    y_down: Any = False,
+    horizon_azimuths: Any = 4,
+    azimuth_convention: Any = None,
+    below_horizontal: Any = "sky",
+) -> dict[str, Any]:
+    """What maps are made of and how, as the compiled part takes it; `bake` says what is what. Raises ValueError."""
+    reflectance = numbers("albedo", albedo)
+    if reflectance.ndim > 1 or reflectance.size not in (1, 3):
+        raise ValueError("albedo: must be one number, or three")
+    distance, fading = reach_of(reach, falloff)
+    choice: dict[str, Any] = {
+        "albedo": [float(value) for value in np.atleast_1d(reflectance)],
+        "reach": distance,
+        "falloff": fading,
+        "uniform_ao": bool(uniform_ao),
+        "y_down": bool(y_down),
+        "horizon_azimuths": integer("horizon_azimuths", horizon_azimuths, 1, 360),
+    }
+    if azimuth_convention is not None:
+        choice["azimuth_convention"] = one_of("azimuth_convention", azimuth_convention, ("north", "math"))
+    choice["below_horizontal"] = one_of("below_horizontal", below_horizontal, ("sky", "ground"))
+    return choice
+
+
 def bake(
     height: HeightLike,
     maps: Union[str, Iterable[str]] = ("ao",),
@@ -72,22 +105,17 @@ def bake(
     has them. `azimuth_convention`: horizons count "north", clockwise, or "math", from x toward y; where None,
     north on open maps. Other arguments as those of `sky()`.
     """
-    names = [maps] if isinstance(maps, str) else [str(name) for name in maps]
+    names = map_names(maps)
     surface, _ = surface_of(height, texel, boundary)
-    constant, varying = split_albedo(albedo, (surface.height, surface.width))
-    if varying:
-        raise ValueError("albedo: must be one number, or three")
-    distance, fading = reach_of(reach, falloff)
-    choice = {
-        "albedo": constant,
-        "reach": distance,
-        "falloff": fading,
-        "uniform_ao": bool(uniform_ao),
-        "y_down": bool(y_down),
-        "horizon_azimuths": integer("horizon_azimuths", horizon_azimuths, 1, 360),
-    }
-    if azimuth_convention is not None:
-        choice["azimuth_convention"] = one_of("azimuth_convention", azimuth_convention, ("north", "math"))
-    choice["below_horizontal"] = one_of("below_horizontal", below_horizontal, ("sky", "ground"))
+    choice = bake_choice(
+        albedo,
+        reach=reach,
+        falloff=falloff,
+        uniform_ao=uniform_ao,
+        y_down=y_down,
+        horizon_azimuths=horizon_azimuths,
+        azimuth_convention=azimuth_convention,
+        below_horizontal=below_horizontal,
+    )
     chosen = settings(error, azimuths, None, seed, threads, memory, progress)
     return Bake(_native.Bake(surface, chosen, names, choice), names)

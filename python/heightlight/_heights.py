@@ -124,6 +124,44 @@ def shapes() -> dict[str, str]:
     return {name: description for name, (description, _) in _native.shapes().items()}
 
 
+def load_options(
+    *,
+    relief: Any = None,
+    relief_share: Any = None,
+    width: Any = None,
+    texel: Any = None,
+    boundary: Any = None,
+    no_data: Any = None,
+    part: Any = None,
+    channel: Any = None,
+    size: Any = None,
+    big_endian: Any = False,
+    scale: Any = None,
+    offset: Any = None,
+    shrink: Any = 1,
+    invert: Any = False,
+) -> dict[str, Any]:
+    """How a file becomes heights, as the compiled part takes it; `read` says what is what."""
+    options: dict[str, Any] = {"shrink": integer("shrink", shrink, 1), "invert": bool(invert)}
+    for name, value in (("relief", relief), ("relief_share", relief_share), ("width", width), ("no_data", no_data), ("scale", scale), ("offset", offset)):
+        if value is not None:
+            options[name] = real(name, value)
+    for name, text in (("part", part), ("channel", channel), ("boundary", boundary)):
+        if text is not None:
+            options[name] = str(text)
+    if boundary not in (None, "tile", "open"):
+        raise ValueError(f"boundary {boundary}: must be tile or open")
+    if size is not None:
+        rows, columns = size
+        options["size"] = (integer("size", rows, 1), integer("size", columns, 1))
+    options["big_endian"] = bool(big_endian)
+    if isinstance(texel, str) and texel == "auto":
+        options["texel"] = texel
+    elif texel is not None:
+        options["texel"] = spacing(texel, np.empty((1, 1)))
+    return options
+
+
 def read(
     path: Union[str, os.PathLike],
     *,
@@ -153,23 +191,22 @@ def read(
 
     Raises OSError naming the file that cannot be read, ValueError for arguments that make no sense.
     """
-    options: dict[str, Any] = {"shrink": integer("shrink", shrink, 1), "invert": bool(invert)}
-    for name, value in (("relief", relief), ("relief_share", relief_share), ("width", width), ("no_data", no_data), ("scale", scale), ("offset", offset)):
-        if value is not None:
-            options[name] = real(name, value)
-    for name, text in (("part", part), ("channel", channel), ("boundary", boundary)):
-        if text is not None:
-            options[name] = str(text)
-    if boundary not in (None, "tile", "open"):
-        raise ValueError(f"boundary {boundary}: must be tile or open")
-    if size is not None:
-        rows, columns = size
-        options["size"] = (integer("size", rows, 1), integer("size", columns, 1))
-    options["big_endian"] = bool(big_endian)
-    if isinstance(texel, str) and texel == "auto":
-        options["texel"] = texel
-    elif texel is not None:
-        options["texel"] = spacing(texel, np.empty((1, 1)))
+    options = load_options(
+        relief=relief,
+        relief_share=relief_share,
+        width=width,
+        texel=texel,
+        boundary=boundary,
+        no_data=no_data,
+        part=part,
+        channel=channel,
+        size=size,
+        big_endian=big_endian,
+        scale=scale,
+        offset=offset,
+        shrink=shrink,
+        invert=invert,
+    )
     found = _native.read(os.fspath(path), options)
     for warning in found["warnings"]:
         warnings.warn(f"{path}: {warning}", stacklevel=2)

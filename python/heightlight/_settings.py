@@ -29,7 +29,7 @@ class _Bars:
             self._bar = None
 
 
-def _progress(wanted: Any) -> Any:
+def progress_of(wanted: Any) -> Any:
     """A function of (name, done, total, ended), or None."""
     if callable(wanted):
         return wanted
@@ -78,7 +78,7 @@ def settings(
         seed=integer("seed", seed, 0, 2**64 - 1),
         threads=0 if threads is None else integer("threads", threads, 1, 65536),
         memory=0 if memory is None else integer("memory", memory, 1, 2**64 - 1),
-        progress=_progress(progress),
+        progress=progress_of(progress),
     )
 
 

@@ -15,6 +15,8 @@ from ._sky import angles_of, definitions, sky
 
 _DEGREES = ("degree", "degrees", "degrees_north", "degrees_east", "degree_north", "degree_east", "deg")
 
+_STORED_AS = ("_FillValue", "scale_factor", "add_offset")
+
 
 @xr.register_dataarray_accessor("heightlight")
 class HeightlightAccessor:
@@ -32,10 +34,9 @@ class HeightlightAccessor:
     def heightmap(self, texel: Any = None, boundary: str = "open") -> Heightmap:
         """The heights, row 0 on top whichever way y runs, with their spacing."""
         array = self._array
-        if array.ndim != 2:
-            raise ValueError(f"height: has the dimensions {', '.join(map(str, array.dims))}, and must have two; choose a band")
+        self._check_dimensions()
         heights = np.array(array.values, dtype=np.float64)
-        missing = array.attrs.get("_FillValue", array.encoding.get("_FillValue"))
+        missing = self._missing()
         if missing is not None:
             heights[heights == missing] = np.nan
         x, y = self._steps(texel)
@@ -86,6 +87,15 @@ class HeightlightAccessor:
         reflectance = albedo if np.ndim(albedo) == 0 else self._turn(np.asarray(albedo), texel)
         total = op.solve(reflectance, light)
         return self._like(total, "irradiance", "irradiance of all bounces over that of an open plane", texel)
+
+    def _check_dimensions(self) -> None:
+        dims = self._array.dims
+        if len(dims) != 2:
+            raise ValueError(f"height: has the dimensions {', '.join(map(str, dims))}, and must have two; choose a band")
+
+    def _missing(self) -> Any:
+        """What stands for a missing sample, where the array declares it."""
+        return self._array.attrs.get("_FillValue", self._array.encoding.get("_FillValue"))
 
     def _coordinates(self, axis: int) -> np.ndarray:
         name = self._array.dims[axis]
@@ -146,8 +156,12 @@ class HeightlightAccessor:
     def _like(self, values: np.ndarray, name: str, meaning: str, texel: Any, units: str = "1") -> xr.DataArray:
         result = self._array.copy(data=self._turn(values, texel))
         result.name = name
-        for key in ("_FillValue", "scale_factor", "add_offset"):
-            result.attrs.pop(key, None)
+        result.attrs = self._attributes(meaning, units)
+        for key in _STORED_AS:
             result.encoding.pop(key, None)
-        result.attrs.update(long_name=meaning, units=units)
         return result
+
+    def _attributes(self, meaning: str, units: str) -> dict[str, Any]:
+        """The array's own, as far as they are true of a result."""
+        kept = {key: value for key, value in self._array.attrs.items() if key not in _STORED_AS}
+        return {**kept, "long_name": meaning, "units": units}

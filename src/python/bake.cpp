@@ -16,6 +16,17 @@
 namespace heightlight {
 namespace {
 
+TextureDepth depth_named(const std::string& name, TextureFormat format) {
+  if (name.empty()) return format == TextureFormat::png ? TextureDepth::uint16 : TextureDepth::real;
+  if (name == "8") return TextureDepth::uint8;
+  if (name == "16") return TextureDepth::uint16;
+  if (name == "half") return TextureDepth::half;
+  if (name == "float") return TextureDepth::real;
+  throw UsageError("depth", name, "must be 8, 16, half or float");
+}
+
+}  // namespace
+
 MaterialMap map_named(const std::string& name) {
   std::string known;
   for (const MaterialMapName& entry : material_maps()) {
@@ -25,40 +36,46 @@ MaterialMap map_named(const std::string& name) {
   throw UsageError("maps", "", "'" + name + "' is no map (known: " + known + ")");
 }
 
-/// What Python chooses beside the maps and the settings.
-struct BakeChoice {
-  std::vector<double> albedo = {0.5};
-  std::optional<double> reach = {};
-  std::string falloff = "none";
-  bool uniform_ao = false;
-  bool y_down = false;
-  int horizon_azimuths = 4;
-  std::optional<AzimuthConvention> convention = {};
-  BelowHorizontal below = BelowHorizontal::sky;
-};
+void set_format(const std::string& format, const std::string& depth, BakeOptions& options) {
+  if (format != "png" && format != "exr" && format != "tif")
+    throw UsageError("format", format, "must be png, exr or tif");
+  options.format = format == "png"   ? TextureFormat::png
+                   : format == "exr" ? TextureFormat::exr
+                                     : TextureFormat::tif;
+  options.depth = depth_named(depth, options.format);
+}
+
+BakeOptions read_bake_options(const std::vector<std::string>& maps, const py::dict& choice,
+                              const Settings& settings) {
+  BakeOptions options;
+  for (const std::string& name : maps) options.maps.push_back(map_named(name));
+  options.albedo = {.constant = choice["albedo"].cast<std::vector<double>>()};
+  if (!choice["reach"].is_none())
+    options.reach = Reach{.distance = choice["reach"].cast<double>(),
+                          .falloff = falloff_named(choice["falloff"].cast<std::string>())};
+  options.uniform_ao = choice["uniform_ao"].cast<bool>();
+  options.y_down = choice["y_down"].cast<bool>();
+  options.horizon_azimuths = choice["horizon_azimuths"].cast<int>();
+  if (choice.contains("azimuth_convention"))
+    options.azimuth_convention = azimuth_convention_named(choice["azimuth_convention"].cast<std::string>());
+  options.below = below_horizontal_named(choice["below_horizontal"].cast<std::string>());
+  const Request request = make_request(settings);
+  if (request.accuracy.visibility == Visibility::rays)
+    throw UsageError("rays", "", "bake no maps; leave them out");
+  options.error = request.accuracy.error;
+  options.azimuths = request.accuracy.azimuths;
+  options.seed = request.accuracy.seed;
+  options.memory = request.limits.memory;
+  return options;
+}
+
+namespace {
 
 /// A material that was found, and may be written.
 class Bake {
  public:
-  Bake(SharedSurface surface, const Settings& settings, const std::vector<std::string>& maps,
-       const BakeChoice& choice)
-      : surface_(std::move(surface)) {
-    for (const std::string& name : maps) options_.maps.push_back(map_named(name));
-    options_.albedo = {.constant = choice.albedo};
-    if (choice.reach)
-      options_.reach = Reach{.distance = *choice.reach, .falloff = falloff_named(choice.falloff)};
-    options_.uniform_ao = choice.uniform_ao;
-    options_.y_down = choice.y_down;
-    options_.horizon_azimuths = choice.horizon_azimuths;
-    options_.azimuth_convention = choice.convention;
-    options_.below = choice.below;
-    const Request request = make_request(settings);
-    options_.error = request.accuracy.error;
-    options_.azimuths = request.accuracy.azimuths;
-    options_.seed = request.accuracy.seed;
-    options_.memory = request.limits.memory;
-    if (request.accuracy.visibility == Visibility::rays)
-      throw UsageError("rays", "", "bake no maps; leave them out");
+  Bake(SharedSurface surface, const Settings& settings, BakeOptions options)
+      : surface_(std::move(surface)), options_(std::move(options)) {
     check_bake_options(options_);
     PythonWatch watch(settings.progress);
     material_ = watch.run([&](const Watch& told) {
@@ -96,12 +113,7 @@ class Bake {
   std::vector<std::string> save(const std::filesystem::path& folder, const std::string& name,
                                 const std::string& format, const std::string& depth) const {
     BakeOptions options = options_;
-    options.format = format == "png"   ? TextureFormat::png
-                     : format == "exr" ? TextureFormat::exr
-                                       : TextureFormat::tif;
-    if (format != "png" && format != "exr" && format != "tif")
-      throw UsageError("format", format, "must be png, exr or tif");
-    options.depth = depth_named(depth, options.format);
+    set_format(format, depth, options);
     SourceFacts facts;
     facts.format = "array";
     facts.sample_type = "float";
@@ -114,15 +126,6 @@ class Bake {
   std::string evidence() const { return evidence_text(material_.results.evidence); }
 
  private:
-  static TextureDepth depth_named(const std::string& name, TextureFormat format) {
-    if (name.empty()) return format == TextureFormat::png ? TextureDepth::uint16 : TextureDepth::real;
-    if (name == "8") return TextureDepth::uint8;
-    if (name == "16") return TextureDepth::uint16;
-    if (name == "half") return TextureDepth::half;
-    if (name == "float") return TextureDepth::real;
-    throw UsageError("depth", name, "must be 8, 16, half or float");
-  }
-
   SharedSurface surface_;
   BakeOptions options_;
   Material material_;
@@ -134,19 +137,7 @@ void add_bake(py::module_& module) {
   py::class_<Bake>(module, "Bake")
       .def(py::init([](const std::shared_ptr<Surface>& surface, const Settings& settings,
                        const std::vector<std::string>& maps, const py::dict& choice) {
-             std::optional<AzimuthConvention> convention;
-             if (choice.contains("azimuth_convention"))
-               convention = azimuth_convention_named(choice["azimuth_convention"].cast<std::string>());
-             return std::make_unique<Bake>(
-                 surface, settings, maps,
-                 BakeChoice{.albedo = choice["albedo"].cast<std::vector<double>>(),
-                            .reach = choice["reach"].cast<std::optional<double>>(),
-                            .falloff = choice["falloff"].cast<std::string>(),
-                            .uniform_ao = choice["uniform_ao"].cast<bool>(),
-                            .y_down = choice["y_down"].cast<bool>(),
-                            .horizon_azimuths = choice["horizon_azimuths"].cast<int>(),
-                            .convention = convention,
-                            .below = below_horizontal_named(choice["below_horizontal"].cast<std::string>())});
+             return std::make_unique<Bake>(surface, settings, read_bake_options(maps, choice, settings));
            }),
            py::arg("surface"), py::arg("settings"), py::arg("maps"), py::arg("choice"))
       .def("map", &Bake::map, py::arg("name"))

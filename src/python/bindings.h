@@ -5,7 +5,10 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "bake/bake.h"
+#include "heightlight/files.h"
 #include "heightlight/solve.h"
 
 // What the module heightlight._native offers to the package around it, which is written in Python. Functions
@@ -32,6 +35,19 @@ Request make_request(const Settings& settings);
 /// Evidence as the text of JSON.
 std::string evidence_text(const Evidence& evidence);
 
+/// How a file becomes heights, as heightlight.read says it.
+LoadOptions read_load_options(const py::dict& options);
+
+/// What is baked, as heightlight.bake says it; its files' format is as it was. Throws UsageError.
+BakeOptions read_bake_options(const std::vector<std::string>& maps, const py::dict& choice,
+                              const Settings& settings);
+
+/// The map of that name. Throws UsageError.
+MaterialMap map_named(const std::string& name);
+
+/// "png", "exr" or "tif"; "8", "16", "half", "float", or as the format has it where empty. Throws UsageError.
+void set_format(const std::string& format, const std::string& depth, BakeOptions& options);
+
 /// A surface that Python and operators share.
 using SharedSurface = std::shared_ptr<const Surface>;
 
@@ -43,6 +59,7 @@ void add_operator(py::module_& module);
 void add_forms(py::module_& module);
 void add_files(py::module_& module);
 void add_bake(py::module_& module);
+void add_work(py::module_& module);
 void add_compare(py::module_& module);
 void add_fit(py::module_& module);
 

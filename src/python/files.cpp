@@ -27,6 +27,8 @@ py::dict describe_facts(const SourceFacts& facts) {
   return told;
 }
 
+}  // namespace
+
 LoadOptions read_load_options(const py::dict& options) {
   LoadOptions load;
   const auto take = [&](const char* name, auto& value) {
@@ -58,6 +60,8 @@ LoadOptions read_load_options(const py::dict& options) {
   if (options.contains("invert")) load.invert = options["invert"].cast<bool>();
   return load;
 }
+
+namespace {
 
 py::dict read_heights(const std::filesystem::path& path, const py::dict& options) {
   const LoadOptions load = read_load_options(options);

@@ -85,6 +85,7 @@ PYBIND11_MODULE(_native, module) {
   add_forms(module);
   add_files(module);
   add_bake(module);
+  add_work(module);
   add_compare(module);
   add_fit(module);
 }
