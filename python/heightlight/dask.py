@@ -86,10 +86,9 @@ def bake(
     that are to be read beside each other need folders of their own. `threads`, `memory`: of each worker;
     those that Dask gave it.
 
-    Where a check finds that a total misses `error`, `heightlight.bake` finds it once more; windows do not, but warn of it,
-    as of what a user should know of a file. What windows cannot do is a ValueError: "ao-n", the definitions of terrain science, an albedo that varies,
-    "multibounce" beside a reach or under a sky that ends at the horizontal, maps that tile whose sides are no multiples
-    of 8 (64, where they are very large).
+    A total that is found to miss `error` is found once more, as `heightlight.bake` does it. What windows cannot do is a
+    ValueError: "ao-n", the definitions of terrain science, an albedo that varies, "multibounce" beside a reach or under a
+    sky that ends at the horizontal, maps that tile whose sides are no multiples of 8 (64, where they are very large).
     """
     array = source if isinstance(source, xr.DataArray) else None
     path = "" if array is not None else os.path.abspath(os.fspath(source))

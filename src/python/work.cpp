@@ -14,7 +14,7 @@
 #include "python/arrays.h"
 #include "python/bindings.h"
 #include "python/python_watch.h"
-#include "windows/check_file.h"
+#include "windows/work_check.h"
 #include "windows/given_heights.h"
 #include "windows/windowed_bake.h"
 
