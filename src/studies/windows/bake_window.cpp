@@ -41,17 +41,6 @@ WindowPlace widened(const MapRect& window, int halo, const WorkFacts& facts) {
           .height = bottom - top};
 }
 
-/// A crop in the window's middle: what it is planned on.
-MapRect middle_crop(const MapRect& window, const WindowGrid& grid) {
-  const auto along = [](int first, int count, int samples) {
-    const int side = std::min(kCropSide, samples);
-    return std::pair(std::clamp(first + count / 2 - side / 2, 0, samples - side), side);
-  };
-  const auto [top, rows] = along(window.first_row, window.rows, grid.map_height);
-  const auto [left, columns] = along(window.first_column, window.columns, grid.map_width);
-  return {top, left, rows, columns};
-}
-
 /// The total of one channel in a window and its halo, with the light of what is around it.
 Map solve_window(const Work& work, std::size_t channel, const Surface& surface, const Map& sky) {
   const BakeOptions& options = work.task.options;

@@ -74,6 +74,16 @@ double walk_cost(const WalkOptions& walk) { return double{1} * walk.azimuths * (
 
 }  // namespace
 
+MapRect middle_crop(const MapRect& window, const WindowGrid& grid) {
+  const auto along = [](int first, int count, int samples) {
+    const int side = std::min(kCropSide, samples);
+    return std::pair(std::clamp(first + count / 2 - side / 2, 0, samples - side), side);
+  };
+  const auto [top, rows] = along(window.first_row, window.rows, grid.map_height);
+  const auto [left, columns] = along(window.first_column, window.columns, grid.map_width);
+  return {top, left, rows, columns};
+}
+
 HorizonPlan plan_on(const Work& work, const MapRect& crop) {
   return find_plan(work, crop_surface(work, crop));
 }
