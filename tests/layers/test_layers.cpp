@@ -16,7 +16,7 @@ namespace {
 using Names = std::set<std::string>;
 
 const Names kCore = {"base",  "heightmap", "surface",  "visibility",  "transport", "curves",
-                     "forms", "solve",     "skylight", "screenspace", "shaders"};
+                     "forms", "solve",     "skylight", "screenspace", "shaders", "gloss", "window"};
 
 Names with(Names names, const Names& more) {
   names.insert(more.begin(), more.end());
@@ -37,6 +37,8 @@ const std::map<std::string, Names> kMayInclude = {
     {"skylight", {"base", "heightmap", "surface", "visibility"}},
     {"screenspace", {"base", "heightmap", "surface", "skylight"}},
     {"shaders", {"base", "heightmap", "surface", "visibility", "curves", "forms"}},
+    {"gloss", {"base", "heightmap", "surface", "visibility", "skylight"}},
+    {"window", {"base", "heightmap", "surface", "visibility"}},
     {"files", kCore},
     {"relief", kCore},
     {"expression", with(kCore, {"files"})},
@@ -45,10 +47,11 @@ const std::map<std::string, Names> kMayInclude = {
     {"comparison", with(kCore, {"files", "expression", "user_form", "fit"})},
     {"terrain", with(kCore, {"files", "expression", "user_form", "fit", "comparison"})},
     {"bake", with(kCore, {"files"})},
+    {"windows", with(kCore, {"files", "bake"})},
     {"plot", with(kCore, {"files", "expression", "user_form", "relief", "fit", "comparison"})},
     {"cli", with(kCore, {"files", "expression", "user_form", "relief", "fit", "comparison", "terrain", "bake",
-                         "plot"})},
-    {"python", with(kCore, {"files", "expression", "user_form", "fit", "comparison", "bake"})},
+                         "windows", "plot"})},
+    {"python", with(kCore, {"files", "expression", "user_form", "fit", "comparison", "bake", "windows"})},
 };
 
 /// The folders of src/ that hold layers; `cli`, `python` and `files` are layers themselves.
@@ -68,6 +71,7 @@ const std::map<std::string, std::string> kLayerOfPublicHeader = {
     {"transport.h", "transport"},
     {"curves.h", "curves"},
     {"forms.h", "base"},  // formulas alone, for everybody
+    {"occlusion_forms.h", "base"},
     {"closed_forms.h", "forms"},
     {"shaders.h", "shaders"},
     {"evidence.h", "solve"},
@@ -75,11 +79,12 @@ const std::map<std::string, std::string> kLayerOfPublicHeader = {
     {"screenspace.h", "screenspace"},
     {"sky_light.h", "skylight"},
     {"sun.h", "skylight"},
+    {"gloss.h", "gloss"},
     {"files.h", "files"},
     {"terrain_forms.h", "forms"},
 };
 
-const Names kCommands = {"fit", "comparison", "terrain", "bake", "plot", "cli"};
+const Names kCommands = {"fit", "comparison", "terrain", "bake", "windows", "plot", "cli"};
 
 /// Libraries, by how their headers' names begin, and the layers that include them. No public header does.
 const std::map<std::string, Names> kUsers = {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -32,6 +33,25 @@ struct Frame {
     const float b = n.x() * n.y() * a;
     tangent = {1.0F + n.x() * n.x() * a, b, -n.x()};
     bitangent = {b, 1.0F + n.y() * n.y() * a, -n.y()};
+  }
+};
+
+/// From world axes to those of grid rays.
+struct GridTurn {
+  float per_x, per_y;
+
+  explicit GridTurn(const Spacing& spacing)
+      : per_x(static_cast<float>(1 / spacing.x)),
+        per_y(static_cast<float>(-1 / spacing.y)) {}  // rows run down, y up
+
+  void set_ray(std::size_t k, const Eigen::Vector3f& direction, RayWorkspace& workspace) const {
+    const float u = direction.x() * per_x;
+    const float v = direction.y() * per_y;
+    const float texels = std::sqrt(u * u + v * v);
+    const float per_texel = 1.0F / std::max(texels, 1e-30F);
+    workspace.step_u[k] = u * per_texel;
+    workspace.step_v[k] = v * per_texel;
+    workspace.slope[k] = std::clamp(direction.z() * per_texel, -kSteepest, kSteepest);
   }
 };
 
@@ -89,8 +109,7 @@ RayBundle RayCaster::aim_directions(int row, int column, const LatticeTurn& turn
   const float* sine = directions_.sine[table].data();
   const float* azimuth_cosine = directions_.azimuth_cosine.data();
   const float* azimuth_sine = directions_.azimuth_sine.data();
-  const float per_x = static_cast<float>(1 / surface_.map.spacing.x);
-  const float per_y = static_cast<float>(-1 / surface_.map.spacing.y);  // rows run down, y up
+  const GridTurn turn_to_grid(surface_.map.spacing);
   for (int k = 0; k < directions_.count; ++k) {
     const float along_tangent = sine[k] * (azimuth_cosine[k] * turn.cosine - azimuth_sine[k] * turn.sine);
     const float along_bitangent = sine[k] * (azimuth_sine[k] * turn.cosine + azimuth_cosine[k] * turn.sine);
@@ -100,31 +119,46 @@ RayBundle RayCaster::aim_directions(int row, int column, const LatticeTurn& turn
                     cosine[k] * frame.normal.y();
     const float z = along_tangent * frame.tangent.z() + along_bitangent * frame.bitangent.z() +
                     cosine[k] * frame.normal.z();
-    const float u = x * per_x;
-    const float v = y * per_y;
-    const float texels = std::sqrt(u * u + v * v);
-    const float per_texel = 1.0F / std::max(texels, 1e-30F);
-    workspace.step_u[static_cast<std::size_t>(k)] = u * per_texel;
-    workspace.step_v[static_cast<std::size_t>(k)] = v * per_texel;
-    workspace.slope[static_cast<std::size_t>(k)] = std::clamp(z * per_texel, -kSteepest, kSteepest);
+    turn_to_grid.set_ray(static_cast<std::size_t>(k), {x, y, z}, workspace);
   }
+  return bundle_of(row, column, directions_.count, workspace);
+}
+
+RayBundle RayCaster::bundle_of(int row, int column, int count, const RayWorkspace& workspace) const {
   RayBundle bundle;
   bundle.column = column;
   bundle.row = row;
   bundle.height = surface_.map.height(row, column);
-  bundle.count = directions_.count;
+  bundle.count = count;
   bundle.step_u = workspace.step_u.data();
   bundle.step_v = workspace.step_v.data();
   bundle.slope = workspace.slope.data();
   return bundle;
 }
 
-RayBundle RayCaster::aim(int row, int column, const LatticeTurn& turn, RayWorkspace& workspace) const {
-  RayBundle bundle = aim_directions(row, column, turn, workspace);
-  const SlopeBounds bounds = bound_slopes(grid_, row, column, bundle.height);
+void RayCaster::find_sky_ways_of(RayBundle& bundle, RayWorkspace& workspace) const {
+  const SlopeBounds bounds = bound_slopes(grid_, bundle.row, bundle.column, bundle.height);
   find_sky_ways(bounds, grid_.highest - bundle.height, bundle.count, workspace);
   bundle.sky_way = workspace.sky_way.data();
+}
+
+RayBundle RayCaster::aim(int row, int column, const LatticeTurn& turn, RayWorkspace& workspace) const {
+  RayBundle bundle = aim_directions(row, column, turn, workspace);
+  find_sky_ways_of(bundle, workspace);
   return bundle;
+}
+
+void RayCaster::look_along(int row, int column, const std::vector<Eigen::Vector3f>& directions,
+                           RayWorkspace& workspace, std::vector<char>& open) const {
+  assert(directions.size() <= static_cast<std::size_t>(directions_.count));
+  open.assign(directions.size(), 1);
+  if (pyramid_.levels == 0) return;  // no cells, nothing in the way
+  const GridTurn turn_to_grid(surface_.map.spacing);
+  for (std::size_t k = 0; k < directions.size(); ++k) turn_to_grid.set_ray(k, directions[k], workspace);
+  RayBundle bundle = bundle_of(row, column, static_cast<int>(directions.size()), workspace);
+  find_sky_ways_of(bundle, workspace);
+  traverse(grid_, bundle, {workspace.cell.data(), workspace.across.data(), workspace.down.data()});
+  for (std::size_t k = 0; k < directions.size(); ++k) open[k] = workspace.cell[k] == kSky ? 1 : 0;
 }
 
 void RayCaster::view(int row, int column, RayWorkspace& workspace, ReceiverView& view) const {

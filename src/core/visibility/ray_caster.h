@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <vector>
 
 #include "heightlight/visibility.h"
@@ -43,9 +44,18 @@ class RayCaster {
   /// Likewise, ready for `traverse`.
   RayBundle aim(int row, int column, const LatticeTurn& turn, RayWorkspace& workspace) const;
 
+  /// Of unit vectors in world axes, at most rays() of them, those that nothing hides the sky in, as 1, the
+  /// rest as 0, from a receiver that is present.
+  void look_along(int row, int column, const std::vector<Eigen::Vector3f>& directions,
+                  RayWorkspace& workspace, std::vector<char>& open) const;
+
   const RayGrid& grid() const { return grid_; }
 
  private:
+  /// The first `count` rays of the workspace.
+  RayBundle bundle_of(int row, int column, int count, const RayWorkspace& workspace) const;
+  void find_sky_ways_of(RayBundle& bundle, RayWorkspace& workspace) const;
+
   const Surface& surface_;
   MaximumPyramid pyramid_;
   RayGrid grid_;

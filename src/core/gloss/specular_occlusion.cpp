@@ -1,0 +1,67 @@
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "base/parallel.h"
+#include "base/texel_algebra.h"
+#include "gloss/lobe_visibility.h"
+#include "heightlight/error.h"
+#include "heightlight/gloss.h"
+
+namespace heightlight {
+namespace {
+
+constexpr int kMostLobeRays = 65536;
+
+void check_specular_options(const SpecularOptions& options) {
+  check_gloss(options.gloss);
+  check_view(options.view);
+  if (options.rays < kLobeParts || options.rays > kMostLobeRays)
+    throw UsageError("rays", std::to_string(options.rays),
+                     "must be from " + std::to_string(kLobeParts) + " to " + std::to_string(kMostLobeRays));
+}
+
+/// Sums of one row of texels.
+struct RowErrors {
+  double squares = 0;
+  std::size_t count = 0;
+};
+
+}  // namespace
+
+SpecularOcclusion specular_occlusion(const Surface& surface, const SpecularOptions& options) {
+  check_specular_options(options);
+  const RayCaster caster(surface, {.rays = options.rays});
+  const LookedLobe lobe{.sampler = ggx_sampler(options.gloss),
+                        .view = as_eigen(options.view).cast<double>().normalized(),
+                        .rays = options.rays,
+                        .seed = options.seed};
+  SpecularOcclusion found;
+  found.occlusion = Map(surface.width(), surface.height());
+  std::vector<RowErrors> rows(static_cast<std::size_t>(surface.height()));
+  Progress progress("specular occlusion", surface.height(), options.watch);
+  parallel_for(
+      surface.height(),
+      [&](std::int64_t i) {
+        const int row = static_cast<int>(i);
+        LobeWorkspace work(options.rays);
+        RowErrors& errors = rows[static_cast<std::size_t>(i)];
+        for (int column = 0; column < surface.width(); ++column) {
+          const LobeShare share = look_by_rays(caster, surface, row, column, lobe, work);
+          found.occlusion(row, column) = static_cast<float>(share.open);
+          if (std::isnan(share.open)) continue;
+          errors.squares += share.error * share.error;
+          ++errors.count;
+        }
+      },
+      &progress);
+  RowErrors all;
+  for (const RowErrors& row : rows) {
+    all.squares += row.squares;
+    all.count += row.count;
+  }
+  found.rmse = all.count > 0 ? std::sqrt(all.squares / static_cast<double>(all.count)) : 0;
+  return found;
+}
+
+}  // namespace heightlight
