@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "heightlight/image.h"
 #include "heightlight/surface.h"
@@ -46,5 +47,45 @@ struct SpecularOcclusion {
 /// viewer are found like others. The same to the last bit for any number of threads. Throws UsageError for
 /// options outside their range, Cancelled when the watch says so.
 SpecularOcclusion specular_occlusion(const Surface& surface, const SpecularOptions& options);
+
+/// Where in the table of GTSO something stands (Jimenez 2016, eq. 30): a cone that stands for what is open,
+/// and a lobe.
+struct ConeArguments {
+  double half_angle = 0;  ///< α_v of the cone, rad, in [0, π/2]; cone_cosine (occlusion_forms.h) of A
+  double apart = 0;       ///< β between its axis, the bent normal, and the mirrored view, rad, in [0, π]
+  double roughness = 0.13;
+  double view_angle = 0;  ///< θ_o between normal and view, rad, in [0, π/2]
+};
+
+/// GTSO's table, side⁴ values in 8 bits (255 is 1) of eq. 30 at a reflectance of 0.04, by
+///     x = α_v/(π/2),   y = (F(β) − F(0))/(F(π) − F(0)),   √r,   θ_o/(π/2),
+///     F(β) = t/√(1 + t²), t = (β − α_v)/(2 r),
+/// each in steps of 1/(side − 1) from 0 on, the first running fastest. F is how GGX's lobe falls off across a
+/// straight edge that far from its middle, so that values hardly bend along y, however narrow the lobe is.
+///
+/// Eq. 30 leaves open on which side of the mirrored view the bent normal lies. Here it is in the plane of
+/// normal and view, on the normal's side, about which what is open tends to lie.
+struct SpecularTable {
+  int side = 0;
+  std::vector<std::uint8_t> values;
+};
+
+/// Throws UsageError unless 4 ≤ side ≤ 64 is a multiple of 4, Cancelled when the watch says so. The same to
+/// the last bit for any number of threads.
+SpecularTable make_specular_table(int side, const Watch& watch = {});
+
+/// Between the table's values, linearly. Arguments beyond its ends are taken to be at them.
+double look_up(const SpecularTable& table, const ConeArguments& arguments);
+
+/// How far a table is from eq. 30.
+struct TableError {
+  double rmse = 0;
+  double largest = 0;
+};
+
+/// At so many random arguments: A, √r and θ_o up to 85° evenly, β evenly as far as the bent normal is above
+/// the surface.
+TableError judge_specular_table(const SpecularTable& table, int count, std::uint64_t seed,
+                                const Watch& watch = {});
 
 }  // namespace heightlight

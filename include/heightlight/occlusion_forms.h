@@ -258,6 +258,71 @@ float heightlight_lagarde(float sky, float view_cosine, float roughness) {
 }
 )"};
 
+// GGX
+// -----------------------------------------------------------------------------------------------------------
+
+/// Smith's G₁ of a direction by its cosine: 2/(1 + √(1 + r² tan²θ)) (Walter et al. 2007, eq. 34).
+template <class Real>
+Real smith_shadowing(Real roughness, Real cosine) {
+  using std::sqrt;
+  const Real squared = cosine * cosine;
+  return Real(2) / (Real(1) + sqrt(Real(1) + roughness * roughness * (Real(1) - squared) / squared));
+}
+
+/// Fresnel's factor in Schlick's form, of the cosine between light and microfacet.
+template <class Real>
+Real schlick(Real reflectance, Real cosine) {
+  const Real rest = Real(1) < cosine ? Real(0) : Real(1) - cosine;
+  const Real squared = rest * rest;
+  return reflectance + (Real(1) - reflectance) * squared * squared * rest;
+}
+
+/// A direction that GGX mirrors the view into.
+template <class Real>
+struct GgxDirection {
+  Direction<Real> direction;  ///< unit
+  Real facet_cosine{};        ///< to the microfacet's normal
+};
+
+/// Of the point (u, v) of the unit square, by visible normals (Heitz 2018, section 3.2), in the normal's
+/// frame: a point of a disc, half of which foreshortens with the view, is projected onto the hemisphere of
+/// normals. Mirrored, their density is f_r cosθ but for Fresnel's factor, the light's shadowing, and a
+/// constant. Where the direction lies below the surface, its z is negative.
+template <class Real>
+GgxDirection<Real> mirror_visible_normal(const Direction<Real>& view, Real roughness, Real u, Real v) {
+  using std::cos;
+  using std::sin;
+  using std::sqrt;
+  const Real stretched_x = roughness * view.x;
+  const Real stretched_y = roughness * view.y;
+  const Real flat = stretched_x * stretched_x + stretched_y * stretched_y;
+  const Real scale = Real(1) / sqrt(flat + view.z * view.z);
+  const Direction<Real> seen_from = {stretched_x * scale, stretched_y * scale, view.z * scale};
+  const Real across_scale = Real(0) < flat ? Real(1) / sqrt(flat) : Real(0);
+  const Direction<Real> across = Real(0) < flat ? Direction<Real>{(Real(0) - stretched_y) * across_scale,
+                                                                  stretched_x * across_scale, Real(0)}
+                                                : Direction<Real>{Real(1), Real(0), Real(0)};
+  const Direction<Real> along = cross(seen_from, across);
+  const Real radius = sqrt(u);
+  const Real first = radius * cos(Real(2 * kPiOfForms) * v);
+  const Real share = (Real(1) + seen_from.z) / Real(2);
+  const Real rest = Real(1) - first * first;
+  const Real second = (Real(1) - share) * sqrt(rest < Real(0) ? Real(0) : rest) +
+                      share * radius * sin(Real(2 * kPiOfForms) * v);
+  const Real last = rest - second * second;
+  const Real third = sqrt(last < Real(0) ? Real(0) : last);
+  const Real x = roughness * (first * across.x + second * along.x + third * seen_from.x);
+  const Real y = roughness * (first * across.y + second * along.y + third * seen_from.y);
+  const Real above = first * across.z + second * along.z + third * seen_from.z;
+  const Real z = above < Real(1e-12) ? Real(1e-12) : above;
+  const Real length = Real(1) / sqrt(x * x + y * y + z * z);
+  const Direction<Real> normal = {x * length, y * length, z * length};
+  const Real cosine = dot(view, normal);
+  return {{Real(2) * cosine * normal.x - view.x, Real(2) * cosine * normal.y - view.y,
+           Real(2) * cosine * normal.z - view.z},
+          cosine};
+}
+
 /// Two unit vectors that complete a normal (z ≥ 0) to a right-handed frame (Duff et al. 2017).
 template <class Real>
 struct NormalFrame {
@@ -272,6 +337,11 @@ struct NormalFrame {
 
   Direction<Real> into(const Direction<Real>& d) const {
     return {dot(d, tangent), dot(d, bitangent), dot(d, normal)};
+  }
+  Direction<Real> out_of(const Direction<Real>& d) const {
+    return {d.x * tangent.x + d.y * bitangent.x + d.z * normal.x,
+            d.x * tangent.y + d.y * bitangent.y + d.z * normal.y,
+            d.x * tangent.z + d.y * bitangent.z + d.z * normal.z};
   }
 };
 
@@ -334,77 +404,153 @@ class VisibleNormalPolygon {
   Real sum_{0};
 };
 
-/// What a lobe sees of the sky, straight from stored horizons: of the lobe's visible normals, those that
-/// mirror the view into directions above the polygon of horizons, over those above the tangent plane, which
-/// makes it 1 in the open at every roughness and view. `elevation`: of the horizon above the horizontal, at
-/// least that of the tangent plane, toward the azimuths 2π k/count from x to y. `normal` and `view` in the
-/// same axes, z up, n·v > 0.
+/// Horizons of a place as a horizon map stores them: toward the azimuths 2π k/count from x to y, as slopes
+/// (the tangent of the elevation above the map's plane, at least that of the tangent plane).
+///
+/// Between two of them, a sector σ apart, the horizon is taken to be the great circle through both, whose
+/// slope
+///     m(φ) = (m_a sin(σ − φ) + m_b sin φ)/sin σ
+/// is exact for a straight edge, however it runs, and for the tangent plane.
+template <class Real>
+class StoredHorizons {
+ public:
+  StoredHorizons(const Real* slopes, std::size_t count) : slopes_(slopes), count_(count) {}
+
+  std::size_t count() const { return count_; }
+
+  /// How much a direction is above the horizon, not below 0 where it is: its z less that of the horizon at
+  /// its azimuth, times the sine of a sector.
+  Real above(const Direction<Real>& d) const {
+    using std::atan2;
+    using std::sin;
+    using std::sqrt;
+    const double sector = 2 * kPiOfForms / static_cast<double>(count_);
+    const Real angle = atan2(d.y, d.x);
+    const Real azimuth = angle < Real(0) ? angle + Real(2 * kPiOfForms) : angle;
+    const std::size_t k = static_cast<std::size_t>(static_cast<double>(azimuth) / sector) % count_;
+    const Real within = azimuth - Real(sector * static_cast<double>(k));
+    const Real rise = slopes_[k] * sin(Real(sector) - within) + slopes_[(k + 1) % count_] * sin(within);
+    return d.z * Real(std::sin(sector)) - rise * sqrt(d.x * d.x + d.y * d.y);
+  }
+
+  /// Slope at a share of the way from azimuth k to the next one.
+  Real slope(std::size_t k, double share) const {
+    const double sector = 2 * kPiOfForms / static_cast<double>(count_);
+    const double scale = 1 / std::sin(sector);
+    return Real(std::sin(sector * (1 - share)) * scale) * slopes_[k % count_] +
+           Real(std::sin(sector * share) * scale) * slopes_[(k + 1) % count_];
+  }
+
+  /// Unit vector toward azimuth k, which need not be whole.
+  Direction<Real> azimuth(double k) const {
+    const double angle = 2 * kPiOfForms * k / static_cast<double>(count_);
+    return {Real(std::cos(angle)), Real(std::sin(angle)), Real(0)};
+  }
+
+ private:
+  const Real* slopes_;
+  std::size_t count_;
+};
+
+/// Directions of the lobe by which horizon_occlusion looks.
+inline constexpr int kHorizonSamples = 16;
+
+/// What a lobe sees of the sky, straight from stored horizons: `samples` of GGX's visible normals, the same
+/// for every place, mirror the view into directions that are above the horizon or not; those above the
+/// tangent plane count by Fresnel's factor, of a reflectance of 0.04, and the light's shadowing. 1 in the
+/// open. normal and view in the map's axes, z up, n·v > 0.
 template <class Real>
 Real horizon_occlusion(const Direction<Real>& normal, const Direction<Real>& view, Real roughness,
-                       const Real* elevation, std::size_t count) {
-  using std::cos;
-  using std::sin;
+                       const StoredHorizons<Real>& horizons, int samples = kHorizonSamples) {
+  const NormalFrame<Real> frame(normal);
+  const Direction<Real> own_view = frame.into(view);
+  Real whole(0);
+  Real open(0);
+  for (int i = 0; i < samples; ++i) {
+    const double turns = 0.25 + i * 0.61803398874989485;  // a Fibonacci lattice
+    const GgxDirection<Real> light = mirror_visible_normal(own_view, roughness, Real((i + 0.5) / samples),
+                                                           Real(turns - std::floor(turns)));
+    if (!(Real(0) < light.direction.z)) continue;
+    const Real weight =
+        schlick(Real(0.04), light.facet_cosine) * smith_shadowing(roughness, light.direction.z);
+    whole = whole + weight;
+    if (!(horizons.above(frame.out_of(light.direction)) < Real(0))) open = open + weight;
+  }
+  return Real(0) < whole ? open / whole : Real(1);
+}
+
+/// Sides of the polygon to each stored horizon.
+inline constexpr int kSidesOfSector = 4;
+
+/// The same in closed form: of the lobe's visible normals, those that mirror the view above the polygon of
+/// horizons, over those above the tangent plane's. Fresnel's factor and the light's shadowing are left out.
+template <class Real>
+Real horizon_polygon_occlusion(const Direction<Real>& normal, const Direction<Real>& view, Real roughness,
+                               const StoredHorizons<Real>& horizons) {
   using std::sqrt;
   const NormalFrame<Real> frame(normal);
   VisibleNormalPolygon<Real> seen(frame, view, roughness);
   VisibleNormalPolygon<Real> open(frame, view, roughness);
-  for (std::size_t i = 0; i <= count; ++i) {
-    const std::size_t k = i % count;
-    const double azimuth = 2 * kPiOfForms * static_cast<double>(k) / static_cast<double>(count);
-    const Real along_x(std::cos(azimuth));
-    const Real along_y(std::sin(azimuth));
-    const Real cosine = cos(elevation[k]);
-    seen.add({along_x * cosine, along_y * cosine, sin(elevation[k])});
-    const Real rise = (Real(0) - normal.x * along_x - normal.y * along_y) / normal.z;
-    const Real scale = Real(1) / sqrt(Real(1) + rise * rise);
-    open.add({along_x * scale, along_y * scale, rise * scale});
+  const auto with_slope = [](const Direction<Real>& azimuth, const Real& slope) {
+    const Real scale = Real(1) / sqrt(Real(1) + slope * slope);
+    return Direction<Real>{azimuth.x * scale, azimuth.y * scale, slope * scale};
+  };
+  const int sides = static_cast<int>(horizons.count()) * kSidesOfSector;
+  for (int i = 0; i <= sides; ++i) {
+    const int vertex = i % sides;
+    const auto k = static_cast<std::size_t>(vertex / kSidesOfSector);
+    const double share = static_cast<double>(vertex % kSidesOfSector) / kSidesOfSector;
+    const Direction<Real> azimuth = horizons.azimuth(static_cast<double>(k) + share);
+    seen.add(with_slope(azimuth, horizons.slope(k, share)));
+    open.add(with_slope(azimuth, (Real(0) - normal.x * azimuth.x - normal.y * azimuth.y) / normal.z));
   }
   return clamp_share(seen.value() / open.value());
 }
 
 inline constexpr FormText kHorizonText{
-    "horizons", "visible normals' polygon of horizons over that of the tangent plane",
+    "horizons", "share of the lobe's directions that are above stored horizons",
     "here; visible normals: Heitz 2018",
-    R"($3 heightlight_stretch($3 d, float factor) { return normalize($3(d.x * factor, d.y * factor, d.z)); }
-
-// Twice what a receiver that faces v gets of the great circle's part between two unit vectors (Lambert).
-float heightlight_side($3 from, $3 to, $3 v) {
-  $3 plane = cross(from, to);
-  float sine2 = dot(plane, plane);
-  float angle = acos(min(max(dot(from, to), -1.0), 1.0));
-  return (sine2 < 1e-12 ? 1.0 : angle / sqrt(sine2)) * dot(plane, v);
-}
-
-// What a glossy lobe sees of the sky, straight from the horizon map: elevation of the horizon above the map's
-// plane, at least that of the tangent plane, in radians, toward the azimuths 2 pi k/$count from x to y. normal
-// and view (from the surface) unit, in the same axes, z up; roughness: alpha of GGX.
-float heightlight_horizon_occlusion($3 normal, $3 view, float roughness, float elevation[$count]) {
+    R"(// What a glossy lobe sees of the sky, straight from the horizon map. slope: tangents of the horizon's elevation
+// above the map's plane, at least those of the tangent plane, toward the azimuths 2 pi k/$count from x to y; between
+// two of them the horizon is the great circle through both. normal and view (from the surface) unit, in the
+// same axes, z up; roughness: alpha of GGX. The $samples directions are GGX's visible normals (Heitz 2018), mirrored.
+float heightlight_horizon_occlusion($3 normal, $3 view, float roughness, float slope[$count]) {
   float a = -1.0 / (1.0 + normal.z);
   float b = normal.x * normal.y * a;
   $3 tangent = $3(1.0 + normal.x * normal.x * a, b, -normal.x);
   $3 bitangent = $3(b, 1.0 + normal.y * normal.y * a, -normal.y);
-  $3 v = heightlight_stretch($3(dot(view, tangent), dot(view, bitangent), dot(view, normal)), roughness);
-  $3 seen_before = $3(0.0, 0.0, 1.0);
-  $3 open_before = $3(0.0, 0.0, 1.0);
-  float seen = 0.0;
+  $3 v = $3(dot(view, tangent), dot(view, bitangent), dot(view, normal));
+  $3 seen = normalize($3(roughness * v.x, roughness * v.y, v.z));
+  float flat_length = sqrt(seen.x * seen.x + seen.y * seen.y);
+  $3 across = flat_length > 0.0 ? $3(-seen.y, seen.x, 0.0) / flat_length : $3(1.0, 0.0, 0.0);
+  $3 along = cross(seen, across);
+  float share = 0.5 + 0.5 * seen.z;
+  float whole = 0.0;
   float open = 0.0;
-  for (int i = 0; i <= $count; i++) {
-    int k = i == $count ? 0 : i;
-    float azimuth = 6.28318531 * float(k) / $count.0;
-    float x = cos(azimuth);
-    float y = sin(azimuth);
-    $3 h = view + $3(x * cos(elevation[k]), y * cos(elevation[k]), sin(elevation[k]));
-    $3 p = heightlight_stretch($3(dot(h, tangent), dot(h, bitangent), dot(h, normal)), 1.0 / roughness);
-    $3 g = view + normalize($3(x, y, -(normal.x * x + normal.y * y) / normal.z));
-    $3 q = heightlight_stretch($3(dot(g, tangent), dot(g, bitangent), dot(g, normal)), 1.0 / roughness);
-    if (i > 0) {
-      seen += heightlight_side(seen_before, p, v);
-      open += heightlight_side(open_before, q, v);
-    }
-    seen_before = p;
-    open_before = q;
+  for (int i = 0; i < $samples; i++) {
+    float radius = sqrt((float(i) + 0.5) / $samples.0);
+    float turn = 6.28318531 * (0.25 + 0.618033989 * float(i));
+    float x = radius * cos(turn);
+    float y = (1.0 - share) * sqrt(max(1.0 - x * x, 0.0)) + share * radius * sin(turn);
+    $3 n = x * across + y * along + sqrt(max(1.0 - x * x - y * y, 0.0)) * seen;
+    $3 facet = normalize($3(roughness * n.x, roughness * n.y, max(n.z, 1e-6)));
+    float cosine = dot(v, facet);
+    $3 light = 2.0 * cosine * facet - v;
+    if (light.z <= 0.0) continue;
+    float rest = 1.0 - min(cosine, 1.0);
+    float weight = (0.04 + 0.96 * rest * rest * rest * rest * rest) * 2.0 /
+                   (1.0 + sqrt(1.0 + roughness * roughness * (1.0 / (light.z * light.z) - 1.0)));
+    whole += weight;
+    $3 d = light.x * tangent + light.y * bitangent + light.z * normal;
+    float sector = 6.28318531 / $count.0;
+    float azimuth = $atan2(d.y, d.x);
+    azimuth = azimuth < 0.0 ? azimuth + 6.28318531 : azimuth;
+    int k = min(int(azimuth / sector), $count - 1);
+    float within = azimuth - sector * float(k);
+    float rise = slope[k] * sin(sector - within) + slope[k == $count - 1 ? 0 : k + 1] * sin(within);
+    if (d.z * sin(sector) >= rise * sqrt(d.x * d.x + d.y * d.y)) open += weight;
   }
-  return heightlight_share(seen / open);
+  return whole > 0.0 ? open / whole : 1.0;
 }
 )"};
 

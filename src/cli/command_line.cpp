@@ -134,6 +134,7 @@ int run_command_line(int argument_count, const char* const* arguments) {
   add_fit_command(app);
   add_shaders_command(app);
   add_synth_command(app);
+  add_specular_table_command(app);
   add_info_command(app);
   add_dataset_command(app);
   return check_printed(run(app, argument_count, arguments));

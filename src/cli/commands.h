@@ -8,6 +8,7 @@ namespace heightlight {
 /// does the work and throws Error, UsageError or Cancelled.
 void add_info_command(CLI::App& app);
 void add_synth_command(CLI::App& app);
+void add_specular_table_command(CLI::App& app);
 void add_simulate_command(CLI::App& app);
 void add_bake_command(CLI::App& app);
 void add_dataset_command(CLI::App& app);

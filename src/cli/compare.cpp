@@ -9,6 +9,7 @@
 #include "cli/commands.h"
 #include "cli/compare_json.h"
 #include "cli/compare_pictures.h"
+#include "cli/compare_shading.h"
 #include "cli/compare_terrain.h"
 #include "cli/map_options.h"
 #include "cli/memory_promise.h"
@@ -40,6 +41,8 @@ struct CompareOptions {
   std::filesystem::path sky;
   int azimuths = 128;
   TerrainOptions terrain;
+  SpecularCompareOptions specular;
+  bool directional = false;
 };
 
 /// Albedos under the names that the table's quantities have: numbers one by one, or what an image holds.
@@ -196,24 +199,35 @@ void add_compare_command(CLI::App& app) {
   add_map_options(*command, options->map);
   command->add_option("-o,--output", options->folder, "folder for the results")->type_name("DIR")->required();
   CLI::Option* terrain = add_terrain_options(*command, options->terrain);
+  CLI::Option* specular = add_specular_options(*command, options->specular);
+  CLI::Option* directional = add_directional_option(*command, options->directional);
+  specular->excludes(terrain)->excludes(directional);
+  directional->excludes(terrain);
   CLI::Option* albedo =
       command
           ->add_option(
               "--albedo", options->albedo,
               "of the totals: one to eight numbers, a colour, or an image of the map's size (0.2,0.5,0.8)")
-          ->type_name("R,R…|#RRGGBB|FILE");
+          ->type_name("R,R…|#RRGGBB|FILE")
+          ->excludes(specular)
+          ->excludes(directional);
   command
       ->add_option("--sky", options->sky,
                    "image of radiance, latitude by longitude, whose direct light is compared (one of two "
                    "tones); its middle looks to the map's top")
       ->type_name("FILE.hdr|exr")
-      ->excludes(terrain);
+      ->excludes(terrain)
+      ->excludes(specular);
   command
       ->add_option("--azimuths", options->azimuths,
                    "of the reference, an even number (128); its error stands in the report")
-      ->excludes(terrain);
+      ->excludes(terrain)
+      ->excludes(specular)
+      ->excludes(directional);
   add_user_form_options(*command, options->forms);
-  for (const char* own : {"--form", "--forms"}) command->get_option(own)->excludes(terrain);
+  for (const char* own : {"--form", "--forms"}) {
+    for (CLI::Option* other : {terrain, specular, directional}) command->get_option(own)->excludes(other);
+  }
   add_run_options(*command, options->run);
   command->footer(
       "Writes report.md, which begins with the answer: what each closed form errs by on exact AO and on "
@@ -223,12 +237,25 @@ void add_compare_command(CLI::App& app) {
       "directions.png, error_NN_METHOD.png; compare.csv, compare.json; forms.glsl and .hlsl where --form "
       "gives one.\n"
       "With --terrain: terrain.md, terrain_forms.csv, terrain_methods (.csv, .svg, .png), terrain.json.\n"
+      "With --specular: specular (.md, .csv, .png, .json). With --directional: directional (.md, .csv, "
+      ".png,\n"
+      ".json), and cone_forms.csv: what the forms err by, whatever the map.\n"
       "Examples:\n"
       "  heightlight compare brick.png -o brick\n"
       "  heightlight compare dem.tif -o dem --texel 50 --boundary open --albedo 0.3\n"
       "  heightlight compare dem.tif -o dem --texel 50 --boundary open --terrain --sun 135,30\n"
+      "  heightlight compare brick.png -o brick --specular --roughness 0.1,0.3 --view 135,45\n"
+      "  heightlight compare brick.png -o brick --directional --sky studio.exr\n"
       "  heightlight compare brick.png -o brick --form 'mine = A/(1 - rho*(1 - A)^k)'");
   command->callback([options, albedo] {
+    if (options->specular.wanted)
+      return compare_specular({.map = options->map,
+                               .run = options->run,
+                               .folder = options->folder,
+                               .specular = options->specular});
+    if (options->directional)
+      return compare_directional(
+          {.map = options->map, .run = options->run, .folder = options->folder, .sky = options->sky});
     if (!options->terrain.wanted) return compare(*options);
     compare_terrain({.map = options->map,
                      .run = options->run,

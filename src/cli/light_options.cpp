@@ -3,12 +3,12 @@
 #include <fmt/core.h>
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <optional>
 
 #include "base/byte_size.h"
+#include "cli/number_list.h"
 #include "files/image_file.h"
 #include "files/image_read.h"
 #include "files/printable.h"
@@ -74,19 +74,10 @@ DirectLight light_of_sky(const std::string& name, const Surface& surface, const 
 }  // namespace
 
 Sun parse_sun(const std::string& text) {
-  std::vector<double> numbers;
-  for (const char* at = text.data();;) {
-    double number = 0;
-    const auto [stop, fault] = std::from_chars(at, text.data() + text.size(), number);
-    const bool is_end = stop == text.data() + text.size();
-    if (fault != std::errc() || !std::isfinite(number) || (!is_end && *stop != ','))
-      throw UsageError("sun", text, "write azimuth and elevation in degrees, such as 135,30");
-    numbers.push_back(number);
-    if (is_end) break;
-    at = stop + 1;
-  }
-  if (numbers.size() < 2 || numbers.size() > 3)
+  const std::optional<std::vector<double>> list = parse_number_list(text);
+  if (!list || list->size() < 2 || list->size() > 3)
     throw UsageError("sun", text, "write azimuth and elevation in degrees, such as 135,30");
+  const std::vector<double>& numbers = *list;
   Sun sun{.azimuth_rad = std::numbers::pi / 2 - numbers[0] * kDegree, .elevation_rad = numbers[1] * kDegree};
   if (numbers.size() == 3) sun.diameter_rad = numbers[2] * kDegree;
   check_sun(sun);

@@ -144,14 +144,35 @@ TEST_CASE("horizons say that an open plane is open, however tilted", "[gloss]") 
     std::vector<double> tangent;
     for (int k = 0; k < 8; ++k) {
       const double azimuth = 2 * pi * k / 8;
-      tangent.push_back(std::atan(-(normal.x * std::cos(azimuth) + normal.y * std::sin(azimuth)) / normal.z));
+      tangent.push_back(-(normal.x * std::cos(azimuth) + normal.y * std::sin(azimuth)) / normal.z);
     }
+    const StoredHorizons<double> horizons(tangent.data(), tangent.size());
     for (const double roughness : {0.02, 0.13, 0.4, 1.0}) {
       for (const Unit view : {unit(0, 0, 1), unit(0.3, -0.5, 0.4), unit(0.1, 0.9, 0.5)}) {
         if (dot(view, normal) <= 0) continue;
-        CHECK(horizon_occlusion(normal, view, roughness, tangent.data(), tangent.size()) == Approx(1));
+        // Identities, but for directions along the plane itself, which hardly count.
+        CHECK(horizon_occlusion(normal, view, roughness, horizons) == Approx(1));
+        CHECK(horizon_polygon_occlusion(normal, view, roughness, horizons) == Approx(1));
       }
     }
+  }
+}
+
+TEST_CASE("horizons are great circles between those that are stored", "[gloss]") {
+  // A straight edge: the plane through the place and the edge has normal m.
+  const Unit m = unit(-0.3, 0.2, 0.8);
+  std::vector<double> slopes;
+  for (int k = 0; k < 8; ++k)
+    slopes.push_back(-(m.x * std::cos(2 * pi * k / 8) + m.y * std::sin(2 * pi * k / 8)) / m.z);
+  const StoredHorizons<double> horizons(slopes.data(), slopes.size());
+  for (int i = 0; i < 100; ++i) {
+    const double azimuth = 2 * pi * i / 100;
+    const Unit d = unit(std::cos(azimuth), std::sin(azimuth), 0.8 * std::sin(0.7 * i));
+    CHECK((horizons.above(d) > 0) == (dot(m, d) > 0));  // identity
+    const double sectors = azimuth / (2 * pi) * 8;
+    const auto k = static_cast<std::size_t>(sectors);
+    CHECK(horizons.slope(k, sectors - std::floor(sectors)) ==
+          Approx(-(m.x * std::cos(azimuth) + m.y * std::sin(azimuth)) / m.z).margin(1e-12));  // identity
   }
 }
 
@@ -160,38 +181,49 @@ TEST_CASE("horizons of a round pit seen from above leave a disc of slopes", "[gl
   // t²/(t² + r²); those above the horizontal 1/(1 + r²).
   constexpr std::size_t kMany = 512;
   for (const double elevation : {0.2, 0.8, 1.3, 1.5}) {
-    const std::vector<double> horizon(kMany, elevation);
+    const std::vector<double> slopes(kMany, std::tan(elevation));
+    const StoredHorizons<double> horizons(slopes.data(), kMany);
     for (const double roughness : {0.05, 0.3, 1.0}) {
       const double t = std::tan((pi / 2 - elevation) / 2);
       const double expected = t * t / (t * t + roughness * roughness) * (1 + roughness * roughness);
-      CHECK(horizon_occlusion<double>({0, 0, 1}, {0, 0, 1}, roughness, horizon.data(), kMany) ==
-            Approx(expected).epsilon(2e-4));  // discretisation: a polygon of 512 sides for a circle
+      CHECK(horizon_polygon_occlusion<double>({0, 0, 1}, {0, 0, 1}, roughness, horizons) ==
+            Approx(expected).epsilon(2e-4));  // discretisation: a polygon for a circle
     }
   }
 }
 
-TEST_CASE("horizons count visible normals as sampling them does", "[gloss]") {
-  // A ring that stands at 0.9 on one side and at 0.1 on the other, fine enough for its sides to be short.
+TEST_CASE("horizons count lobes as integrating them does", "[gloss]") {
+  // A ring that stands at 0.9 on one side and at 0.1 on the other, stored finely.
   constexpr std::size_t kMany = 512;
-  std::vector<double> horizon;
+  const auto ring = [](double azimuth) { return 0.5 + 0.4 * std::sin(azimuth); };
+  std::vector<double> slopes;
   for (std::size_t k = 0; k < kMany; ++k)
-    horizon.push_back(0.5 + 0.4 * std::sin(2 * pi * static_cast<double>(k) / kMany));
+    slopes.push_back(std::tan(ring(2 * pi * static_cast<double>(k) / kMany)));
+  const StoredHorizons<double> horizons(slopes.data(), kMany);
   std::vector<LobeSample> samples;
   for (const Unit view : {unit(0, 0, 1), unit(0.8, 0.3, 0.7), unit(-0.2, 0.9, 0.3), unit(0.9, -0.6, 0.2)}) {
     for (const double roughness : {0.05, 0.4, 1.0}) {
       constexpr int kSamples = 200000;
-      sample_ggx({.roughness = roughness}, {view.x, view.y, view.z}, kSamples, {}, samples);
-      double above_ground = 0;
+      sample_ggx({.roughness = roughness}, {view.x, view.y, view.z}, kSamples, {0.4, 0.1}, samples);
+      double normals = 0;
+      double open_normals = 0;
+      double whole = 0;
       double open = 0;
       for (const LobeSample& sample : samples) {
         if (sample.direction.z() <= 0) continue;
-        above_ground += 1;
         const double azimuth = std::atan2(sample.direction.y(), sample.direction.x());
-        if (std::asin(sample.direction.z()) > 0.5 + 0.4 * std::sin(azimuth)) open += 1;
+        const bool is_open = std::asin(sample.direction.z()) > ring(azimuth);
+        normals += 1;
+        whole += sample.weight;
+        open_normals += is_open ? 1 : 0;
+        open += is_open ? sample.weight : 0;
       }
       INFO(view.z << " " << roughness);
-      CHECK(horizon_occlusion<double>({0, 0, 1}, view, roughness, horizon.data(), kMany) ==
-            Approx(open / above_ground).margin(2e-3));  // Monte Carlo: lattices of 2·10⁵
+      // Monte Carlo: lattices of 2·10⁵ and 2·10⁴
+      CHECK(horizon_polygon_occlusion<double>({0, 0, 1}, view, roughness, horizons) ==
+            Approx(open_normals / normals).margin(2e-3));
+      CHECK(horizon_occlusion<double>({0, 0, 1}, view, roughness, horizons, 20000) ==
+            Approx(open / whole).margin(2e-3));
     }
   }
 }

@@ -46,11 +46,12 @@ const std::map<std::string, Names> kMayInclude = {
     {"fit", with(kCore, {"files", "expression", "user_form"})},
     {"comparison", with(kCore, {"files", "expression", "user_form", "fit"})},
     {"terrain", with(kCore, {"files", "expression", "user_form", "fit", "comparison"})},
+    {"shading", with(kCore, {"files"})},
     {"bake", with(kCore, {"files"})},
     {"windows", with(kCore, {"files", "bake"})},
     {"plot", with(kCore, {"files", "expression", "user_form", "relief", "fit", "comparison"})},
-    {"cli", with(kCore, {"files", "expression", "user_form", "relief", "fit", "comparison", "terrain", "bake",
-                         "windows", "plot"})},
+    {"cli", with(kCore, {"files", "expression", "user_form", "relief", "fit", "comparison", "terrain", "shading",
+                         "bake", "windows", "plot"})},
     {"python", with(kCore, {"files", "expression", "user_form", "fit", "comparison", "bake", "windows"})},
 };
 
@@ -84,7 +85,7 @@ const std::map<std::string, std::string> kLayerOfPublicHeader = {
     {"terrain_forms.h", "forms"},
 };
 
-const Names kCommands = {"fit", "comparison", "terrain", "bake", "windows", "plot", "cli"};
+const Names kCommands = {"fit", "comparison", "terrain", "shading", "bake", "windows", "plot", "cli"};
 
 /// Libraries, by how their headers' names begin, and the layers that include them. No public header does.
 const std::map<std::string, Names> kUsers = {
@@ -98,7 +99,7 @@ const std::map<std::string, Names> kUsers = {
     {"nlohmann/", with(kCommands, {"files"})},
     {"fmt/", with(kCommands, {"files"})},
     {"hwy/", {"base", "visibility", "transport", "screenspace"}},
-    {"Eigen/", with(kCore, {"fit", "comparison"})},
+    {"Eigen/", with(kCore, {"fit", "comparison", "shading"})},
     {"unsupported/Eigen/", {"fit"}},
 };
 
