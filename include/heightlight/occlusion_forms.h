@@ -231,10 +231,40 @@ float heightlight_cone_cone(float sky, float apart, float roughness) {
   if (apart >= a + b) return 0.0;
   if (apart <= b - a) return (1.0 - cos(a)) * 6.28318531 / lobe;
   if (apart <= a - b) return 1.0;
-  float shared = 6.28318531 - 2.0 * heightlight_angle((cos(apart) - cos(a) * cos(b)) / (sin(a) * sin(b))) -
+  float lens = 6.28318531 - 2.0 * heightlight_angle((cos(apart) - cos(a) * cos(b)) / (sin(a) * sin(b))) -
                  2.0 * cos(a) * heightlight_angle((cos(b) - cos(a) * cos(apart)) / (sin(a) * sin(apart))) -
                  2.0 * cos(b) * heightlight_angle((cos(a) - cos(b) * cos(apart)) / (sin(b) * sin(apart)));
-  return heightlight_share(shared / lobe);
+  return heightlight_share(lens / lobe);
+}
+)"};
+
+/// Where the table of GTSO (SpecularTable in gloss.h, the file of specular-table) is to be read. It is a 3D
+/// texture of $side × $side × $side² texels, whose layers run over the roughness first, then over the view's
+/// angle: linear filtering of two places, mixed.
+inline constexpr FormText kTableText{
+    "gtso", "table of eq. 30 by cone, angle, roughness and view", "Jimenez 2016 eq. 30",
+    R"(float heightlight_falloff(float widths) { return widths / sqrt(1.0 + widths * widths); }
+
+// What a glossy lobe sees of the sky, by the table gtso.ktx of $side^4 values (Jimenez 2016, eq. 30). With
+//     $4 p = heightlight_table_place(sky, apart, roughness, view_cosine);
+// it is mix(a, b, heightlight_table_weight(view_cosine)) of the table, filtered linearly, at a: p.xyz, b: p.xyw.
+// apart: angle between bent normal and mirrored view; view_cosine: n.v; roughness: alpha of GGX.
+$4 heightlight_table_place(float sky, float apart, float roughness, float view_cosine) {
+  float cone = acos(sqrt(1.0 - heightlight_share(sky)));
+  float width = 2.0 * max(roughness, 1e-4);
+  float begin = heightlight_falloff(-cone / width);
+  float span = heightlight_falloff((3.14159265 - cone) / width) - begin;
+  float y = (heightlight_falloff((apart - cone) / width) - begin) / span;
+  float view = acos(heightlight_share(view_cosine)) / 1.57079633 * ($side.0 - 1.0);
+  float layer = min(floor(view), $side.0 - 2.0) * $side.0 + sqrt(heightlight_share(roughness)) * ($side.0 - 1.0);
+  float x = cone / 1.57079633;
+  return $4((x * ($side.0 - 1.0) + 0.5) / $side.0, (y * ($side.0 - 1.0) + 0.5) / $side.0,
+              (layer + 0.5) / ($side.0 * $side.0), (layer + $side.0 + 0.5) / ($side.0 * $side.0));
+}
+
+float heightlight_table_weight(float view_cosine) {
+  float view = acos(heightlight_share(view_cosine)) / 1.57079633 * ($side.0 - 1.0);
+  return view - min(floor(view), $side.0 - 2.0);
 }
 )"};
 

@@ -111,4 +111,14 @@ std::string own_shader(const std::vector<ShaderFunction>& own, ShaderLanguage la
 /// The one function that a texture of the two channels A and n needs (kStoredPairShader), with its parts.
 std::string stored_pair_shader(ShaderLanguage language);
 
+/// Values on each side of the table that the text below reads.
+inline constexpr int kShaderTableSide = 16;
+/// Horizons that it takes where the caller has no other number.
+inline constexpr int kShaderHorizons = 16;
+
+/// Functions, in GLSL or HLSL, that find what a glossy lobe sees of the sky, and diffuse light of a sky that
+/// is not even (occlusion_forms.h): from bent cones, by cones, by Lagarde's form or by the table of GTSO, and
+/// from so many stored horizons, at least 3. They are text of their own, beside the list above.
+std::string gloss_shader(ShaderLanguage language, int horizons = kShaderHorizons);
+
 }  // namespace heightlight

@@ -277,6 +277,13 @@ void add_map_content_options(CLI::App& app, BakeCommand& command) {
          "what is nearer than --max-distance occludes: wholly (none, default), or by 1 - d/D (linear), "
          "1 - sqrt(d/D) (sqrt), or by exp(-4 d/D), shifted to end at D (exponential)")
       ->check(CLI::IsMember(falloff_names()));
+  app.add_option("--roughness", command.roughness,
+                 "of specular-occlusion: GGX's alpha, above 0 and at most 1 (0.13)")
+      ->type_name("R");
+  app.add_option("--view", command.view,
+                 "of specular-occlusion: whence it is seen, in degrees clockwise from north, which is up the "
+                 "map, and above the horizontal (0,90)")
+      ->type_name("AZIMUTH,ELEVATION");
   app.add_flag("--bent-length", options.bent_length, "keep the length of bent normals in alpha");
   app.add_option("--horizon-azimuths", options.horizon_azimuths, "azimuths of the horizon map, 1 to 360 (4)");
   app.add_option_function<std::string>(

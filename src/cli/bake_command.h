@@ -22,7 +22,9 @@ struct BakeCommand {
   std::string maps;
   std::string packed;
   std::string albedo = "0.5";
-  LightOptions light;  ///< of multibounce and direct
+  LightOptions light;              ///< of multibounce and direct
+  std::string roughness = "0.13";  ///< of specular-occlusion
+  std::string view = "0,90";
   std::string max_distance;
   std::string falloff = "none";
   std::string format;  ///< empty: GeoTIFF of terrain, PNG of materials

@@ -4,6 +4,7 @@
 
 #include "cli/albedo.h"
 #include "cli/bake_command.h"
+#include "cli/gloss_options.h"
 #include "cli/reach_options.h"
 #include "files/projection_text.h"
 #include "files/terrain_file.h"
@@ -104,6 +105,8 @@ void parse_bake_options(BakeCommand& command) {
   if (options.maps.empty() && options.packed.empty()) {
     options.maps = {MaterialMap::ao, MaterialMap::normal, MaterialMap::bent_normal};
   }
+  options.gloss.roughness = parse_roughness(command.roughness);
+  options.view = parse_view(command.view);
   options.memory = command.run.memory;
   options.seed = command.run.seed;
   if (command.falloff != "none" && command.max_distance.empty()) {

@@ -3,6 +3,7 @@
 #include <system_error>
 
 #include "bake/baked_map.h"
+#include "bake/material.h"
 #include "cli/bake_command.h"
 #include "cli/request.h"
 #include "files/file_record.h"
@@ -34,6 +35,8 @@ std::string request_of(const BakeCommand& command, const BakeOptions& options, c
                                     {"seed", options.seed}};
   // Only where they are given: what was baked before there were such options stays.
   if (options.below == BelowHorizontal::ground) request["below_horizontal"] = "ground";
+  if (is_wanted(options, MaterialMap::specular_occlusion))
+    request["gloss"] = command.roughness + ' ' + command.view;
   if (options.azimuth_convention)
     request["azimuth_convention"] = static_cast<int>(*options.azimuth_convention);
   if (!options.projection.empty()) request["projection"] = options.projection;

@@ -1,5 +1,7 @@
 #include <fmt/core.h>
 
+#include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "cli/compare_shading.h"
@@ -59,24 +61,28 @@ std::string specular_json(const SpecularRun& run, const LoadedHeightmap& loaded,
   return json_text(json);
 }
 
-/// One picture a row for each roughness at the view in the middle, the truth first.
+/// A row for each roughness, the truth first. What the viewer does not see has the colour of missing texels.
 void draw_specular(StagedFolder& folder, const SpecularStudy& study, const std::string& map_name,
-                   const std::vector<Vector3>& views, Plots& plots) {
+                   double elevation, Plots& plots) {
+  constexpr std::array<float, 3> kUnseen{0.25F, 0.05F, 0.19F};  // kMissingColour, linear
   std::vector<RenderedForm> rendered;
-  const std::size_t view = views.size() / 2;
   for (const SpecularPicture& picture : study.pictures) {
-    if (picture.view != view) continue;
     rendered.push_back({.title = picture.method.empty() ? "truth" : picture.method,
                         .label = fmt::format("roughness {:g}", picture.roughness),
                         .rmse = picture.rmse,
                         .reflected = {picture.occlusion, picture.occlusion, picture.occlusion}});
+    for (std::size_t c = 0; c < kUnseen.size(); ++c) {
+      for (float& value : rendered.back().reflected.at(c).values) {
+        if (std::isnan(value)) value = kUnseen.at(c);
+      }
+    }
   }
   std::size_t columns = 1;
   while (columns < rendered.size() && rendered[columns].title != "truth") ++columns;
   plots.draw(folder, {"specular.png"}, [&](const auto& paths) {
     plot_rendered(paths[0], rendered,
                   {.title = fmt::format("{}: specular occlusion, seen from {:.0f}° above the plane", map_name,
-                                        elevation_deg(views[view])),
+                                        elevation),
                    .quantity = "S",
                    .columns = columns});
   });
@@ -93,7 +99,7 @@ void study_specular_on(const SpecularRun& run, const Surface& surface, LoadedHei
   write_specular_report(folder.file("specular.md"),
                         {.map_name = name, .surface = surface, .warnings = loaded.warnings}, study,
                         options.views);
-  draw_specular(folder, study, name, options.views, plots);
+  draw_specular(folder, study, name, elevation_deg(options.views[options.views.size() / 2]), plots);
   const std::vector<FileRecord> files = folder.written();
   write_bytes(folder.file("specular.json"), specular_json(run, loaded, surface, study, files));
   const std::vector<std::string> removed = folder.commit();

@@ -88,7 +88,7 @@ TEST_CASE("ways to shade agree under an even sky, and with exact harmonics under
     CHECK(row_of(study, sky, kGtaoOpenness, kDirectionalGtao, false).rmse >
           row_of(study, sky, kExactOpenness, kDirectionalGtao, false).rmse);
   }
-  REQUIRE(study.costs.size() == 7);
+  REQUIRE(study.costs.size() == 8);
   for (const ShadingCost& cost : study.costs) {
     INFO(cost.method);
     CHECK((cost.lookups > 0) == (cost.arithmetic == 0));

@@ -15,8 +15,8 @@ namespace {
 
 using Names = std::set<std::string>;
 
-const Names kCore = {"base",  "heightmap", "surface",  "visibility",  "transport", "curves",
-                     "forms", "solve",     "skylight", "screenspace", "shaders", "gloss", "window"};
+const Names kCore = {"base",  "heightmap", "surface",     "visibility", "transport", "curves", "forms",
+                     "solve", "skylight",  "screenspace", "shaders",    "gloss",     "window"};
 
 Names with(Names names, const Names& more) {
   names.insert(more.begin(), more.end());
@@ -46,12 +46,12 @@ const std::map<std::string, Names> kMayInclude = {
     {"fit", with(kCore, {"files", "expression", "user_form"})},
     {"comparison", with(kCore, {"files", "expression", "user_form", "fit"})},
     {"terrain", with(kCore, {"files", "expression", "user_form", "fit", "comparison"})},
-    {"shading", with(kCore, {"files"})},
     {"bake", with(kCore, {"files"})},
+    {"shading", with(kCore, {"files", "bake"})},
     {"windows", with(kCore, {"files", "bake"})},
     {"plot", with(kCore, {"files", "expression", "user_form", "relief", "fit", "comparison"})},
-    {"cli", with(kCore, {"files", "expression", "user_form", "relief", "fit", "comparison", "terrain", "shading",
-                         "bake", "windows", "plot"})},
+    {"cli", with(kCore, {"files", "expression", "user_form", "relief", "fit", "comparison", "terrain",
+                         "shading", "bake", "windows", "plot"})},
     {"python", with(kCore, {"files", "expression", "user_form", "fit", "comparison", "bake", "windows"})},
 };
 

@@ -3,6 +3,7 @@
 #include "heightlight/shaders.h"
 #include "heightlight/visibility_cone.h"
 #include "shaders/shader_literal.h"
+#include "shaders/text_template.h"
 
 namespace heightlight {
 namespace {
@@ -29,9 +30,6 @@ ShaderInput albedo_input() {
 // Constants in texts
 // ------------------------------------------------------------------------------------------------
 
-/// What stands for each $name.
-using Replacements = std::vector<std::pair<std::string, std::string>>;
-
 template <class Constants, std::size_t kCount>
 Replacements list_constants(const FormConstant<Constants> (&constants)[kCount], const Constants& values,
                             const std::string& suffix = "") {
@@ -40,29 +38,6 @@ Replacements list_constants(const FormConstant<Constants> (&constants)[kCount], 
     all.emplace_back(constant.name, shader_literal(values.*constant.value));
   }
   return all;
-}
-
-bool is_name(char character) {
-  return (character >= 'a' && character <= 'z') || character == '_' || (character >= '0' && character <= '9');
-}
-
-/// The text with each $name in it replaced. Where no replacement has a name, nothing takes its place.
-std::string fill_in(const std::string& text, const Replacements& replacements) {
-  std::string filled;
-  for (std::size_t i = 0; i < text.size();) {
-    if (text[i] != '$') {
-      filled += text[i++];
-      continue;
-    }
-    std::size_t end = i + 1;
-    while (end < text.size() && is_name(text[end])) ++end;
-    const std::string name = text.substr(i + 1, end - i - 1);
-    for (const auto& [known, value] : replacements) {
-      if (known == name) filled += value;
-    }
-    i = end;
-  }
-  return filled;
 }
 
 // Parts, and forms as published

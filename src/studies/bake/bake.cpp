@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -17,6 +18,7 @@
 #include "files/esri_grid_write.h"
 #include "files/image_file.h"
 #include "files/output_file.h"
+#include "files/specular_table_file.h"
 #include "files/staged_output.h"
 #include "heightlight/error.h"
 #include "heightlight/shaders.h"
@@ -137,6 +139,17 @@ void write_shaders(StagedFolder& folder) {
   write_bytes(folder.file("ao-n.hlsl"), stored_pair_shader(ShaderLanguage::hlsl));
 }
 
+/// Files beside `specular-occlusion`: functions that find it from other maps, and the table that one reads.
+constexpr std::array kGlossFiles{"specular-occlusion.glsl", "specular-occlusion.hlsl", "gtso.ktx"};
+
+void write_gloss_files(StagedFolder& folder, const BakeOptions& options) {
+  const SpecularTable table = make_specular_table(kShaderTableSide, options.watch);
+  const int horizons = is_wanted(options, MaterialMap::horizon) ? options.horizon_azimuths : kShaderHorizons;
+  write_bytes(folder.file(kGlossFiles[0]), gloss_shader(ShaderLanguage::glsl, horizons));
+  write_bytes(folder.file(kGlossFiles[1]), gloss_shader(ShaderLanguage::hlsl, horizons));
+  write_specular_table(folder.file(kGlossFiles[2]), table);
+}
+
 /// A folder that is ready to take a bake. All arguments must outlive it.
 class StagedBake {
  public:
@@ -158,6 +171,7 @@ class StagedBake {
     write_textures(textures, values, map);
     told.files = folder_.written();  // the shaders that follow are those of every map in the folder
     if (is_wanted(options_, MaterialMap::ao_n)) write_shaders(folder_);
+    if (is_wanted(options_, MaterialMap::specular_occlusion)) write_gloss_files(folder_, options_);
     told.output_seconds = watch.lap();
     write_sidecar(folder_.file(files_.back()), options_, textures, told);
     return {.warnings = std::move(told.warnings), .removed = folder_.commit()};
@@ -224,7 +238,9 @@ const std::vector<MaterialMapName>& material_maps() {
        {MaterialMap::ao_n, "ao-n", "two channels that give multibounce at any albedo, with a shader"},
        {MaterialMap::horizon, "horizon", "elevation of the horizon toward some azimuths"},
        {MaterialMap::sh, "sh", "order-2 spherical harmonics of cosine-weighted visibility"},
-       {MaterialMap::height, "height", "heights from 0 to 1"}});
+       {MaterialMap::height, "height", "heights from 0 to 1"},
+       {MaterialMap::specular_occlusion, "specular-occlusion",
+        "what gloss sees of the sky, at --roughness from --view, with shaders and GTSO's table"}});
   return kMaps;
 }
 
@@ -247,6 +263,8 @@ std::vector<std::string> baked_files(const std::string& name, const BakeOptions&
     files.push_back("ao-n.glsl");
     files.push_back("ao-n.hlsl");
   }
+  if (is_wanted(options, MaterialMap::specular_occlusion))
+    files.insert(files.end(), kGlossFiles.begin(), kGlossFiles.end());
   files.push_back(name + "_bake.json");
   return files;
 }
@@ -292,6 +310,10 @@ void check_bake_options(const BakeOptions& options) {
   }
   if (options.below == BelowHorizontal::ground && is_wanted(options, MaterialMap::ao_n))
     throw UsageError("below_horizontal", "ground", "is not for ao-n, whose n is that of a sky all around");
+  if (options.below == BelowHorizontal::ground && is_wanted(options, MaterialMap::specular_occlusion))
+    throw UsageError("below_horizontal", "ground", "is not for specular-occlusion, whose sky is all around");
+  check_gloss(options.gloss);
+  check_view(options.view);
   for (const PackedChannel& channel : options.packed) {
     if (!channel.map || channel.component < component_count(*channel.map, options)) continue;
     throw UsageError(

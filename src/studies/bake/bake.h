@@ -9,6 +9,7 @@
 
 #include "files/staged_output.h"
 #include "heightlight/files.h"
+#include "heightlight/gloss.h"
 #include "heightlight/transport.h"
 #include "heightlight/visibility.h"
 #include "heightlight/watch.h"
@@ -28,7 +29,8 @@ enum class MaterialMap {
   ao_n,  ///< A, and n of G(A, n, ρ) = A + ρ (1 − A) n/(1 − ρ (1 − n)), which is E/π of any albedo
   horizon,  ///< elevation of the horizon toward N azimuths
   sh,  ///< (1/π) ∫ V Y_lm cosθ dω, l ≤ 2: E/π under a sky is the dot product with its coefficients
-  height,  ///< above the lowest sample, over the relief
+  height,              ///< above the lowest sample, over the relief
+  specular_occlusion,  ///< what a glossy lobe sees of the sky, of BakeOptions::gloss and view; 1 = open
   // As sky_definitions() has them, in that order; those made of A share the pass of `ao`.
   svf_tilted,
   svf_horizontal,
@@ -87,7 +89,10 @@ struct BakeOptions {
   int horizon_azimuths = 4;  ///< N: toward 2π k/N
   /// From where these count; default `north` where the map is open, else `math`, toward the y of the files
   std::optional<AzimuthConvention> azimuth_convention = {};
-  BelowHorizontal below = BelowHorizontal::sky;  ///< of all maps of light; not with ao_n
+  Gloss gloss = {};          ///< of specular_occlusion, which knows no reach
+  Vector3 view = {0, 0, 1};  ///< and toward the viewer; world axes, z > 0
+  /// Of all maps of light; not with ao_n, specular_occlusion
+  BelowHorizontal below = BelowHorizontal::sky;
   TextureFormat format = TextureFormat::png;
   TextureDepth depth = TextureDepth::uint16;
   bool dither = false;             ///< blue noise instead of rounding; 8 bits only

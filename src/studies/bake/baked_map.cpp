@@ -207,6 +207,7 @@ int component_count(MaterialMap map, const BakeOptions& options) {
   switch (map) {
     case MaterialMap::ao:
     case MaterialMap::height:
+    case MaterialMap::specular_occlusion:
       return 1;
     case MaterialMap::multibounce:
       return static_cast<int>(std::max(options.albedo.channels(), options.light_channels));
@@ -261,6 +262,8 @@ std::vector<BakedChannel> baked_channels(MaterialMap map, const Material& materi
       return harmonics(material, options.y_down);
     case MaterialMap::height:
       return {height(material)};
+    case MaterialMap::specular_occlusion:
+      return {share("specular occlusion", material.specular.occlusion)};
     default:
       return {of_definition(*definition_of(map), material)};
   }

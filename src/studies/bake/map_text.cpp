@@ -41,6 +41,10 @@ const char* definition(MaterialMap map, const BakeOptions& options) {
              "phase, pole z): E/pi under a sky is the dot product with the sky's coefficients";
     case MaterialMap::height:
       return "height above the lowest sample, over the relief";
+    case MaterialMap::specular_occlusion:
+      return "specular occlusion: int V f cos(theta) dw over int f cos(theta) dw, f of GGX at the roughness "
+             "and "
+             "view of the sidecar; 1 = open; texels that face away are 1, or no number in files of floats";
     default:
       return facts_of(*definition_of(map)).formula;
   }
@@ -55,6 +59,7 @@ bool is_lit(MaterialMap map, const BakeOptions& options) {
     case MaterialMap::normal:
     case MaterialMap::height:
     case MaterialMap::horizon:
+    case MaterialMap::specular_occlusion:
       return false;
     default:
       return !definition_of(map) || map == MaterialMap::svf_tilted || map == MaterialMap::terrain_view_factor;

@@ -83,6 +83,10 @@ Material find_material(const Surface& surface, const BakeOptions& options) {
     material.light = options.find_light(surface);
     if (!request.wanted.totals.empty()) request.wanted.direct = material.light.channels;
   }
+  if (is_wanted(options, MaterialMap::specular_occlusion))
+    material.specular = specular_occlusion(
+        surface,
+        {.gloss = options.gloss, .view = options.view, .seed = options.seed, .watch = options.watch});
   material.results = solve(surface, request);
   Stopwatch watch;
   if (request.wanted.seen) material.model_errors = judge_model(material.results);

@@ -12,9 +12,10 @@ namespace heightlight {
 /// every map follows texel by texel.
 struct Material {
   const Surface* surface = nullptr;
-  Results results;          ///< the sky as far as the reach; horizons in the axes of the files
-  std::vector<Map> totals;  ///< E/π, per channel of the albedo or of the light
-  BakedLight light;         ///< without channels where it is an even sky's
+  Results results;             ///< the sky as far as the reach; horizons in the axes of the files
+  SpecularOcclusion specular;  ///< where it is wanted
+  std::vector<Map> totals;     ///< E/π, per channel of the albedo or of the light
+  BakedLight light;            ///< without channels where it is an even sky's
   std::vector<ModelError> model_errors;
 };
 

@@ -90,7 +90,7 @@ Json describe_reach(const BakeOptions& options) {
           {"applies_to",
            "ao, bent-normal, bent-cone, sh, svf-tilted, terrain-view-factor; horizon and all other "
            "definitions (without falloff)"},
-          {"not_to", "multibounce, ao-n: bounces come from everywhere"}};
+          {"not_to", "multibounce, ao-n: bounces come from everywhere; specular-occlusion"}};
 }
 
 /// What each kind of map errs by; `visibility` says on what that was found.
@@ -109,6 +109,8 @@ Json describe_errors(const BakeOptions& options, const Material& material) {
     const SkyDefinitionFacts& facts = facts_of(check.definition);
     if (check.rmse) json[std::string(facts.name) + "_rmse"] = *check.rmse;
   }
+  if (is_wanted(options, MaterialMap::specular_occlusion))
+    json["specular_occlusion_rmse"] = material.specular.rmse;
   if (is_wanted(options, MaterialMap::multibounce) && !evidence.total_checks.empty()) {
     json["multibounce_rmse"] = evidence.total_checks[0].total_rmse;
   }
@@ -151,6 +153,11 @@ void write_sidecar(const std::filesystem::path& path, const BakeOptions& options
     }
     json["bounces"] = {{"gathered", evidence.bounces}, {"then", "the rest, to convergence"}};
   }
+  if (is_wanted(options, MaterialMap::specular_occlusion))
+    json["gloss"] = {{"roughness_ggx_alpha", options.gloss.roughness},
+                     {"reflectance", options.gloss.reflectance},
+                     {"view", {options.view.x, options.view.y, options.view.z}},
+                     {"view_axes", "x right, y up the picture, z out of it"}};
   json.update(describe_evidence(evidence));
   json["errors"] = describe_errors(options, material);
   json["warnings"] = describe_warnings(facts.warnings);

@@ -47,6 +47,12 @@ Real shade_by_cone(const NineHarmonics<Real>& sky, const DiffuseTexel<Real>& tex
   return directional_irradiance(sky, texel.sky, texel.bent_normal);
 }
 
+/// The same of a cone that was found otherwise.
+template <class Real>
+Real shade_by_given_cone(const NineHarmonics<Real>& sky, const DiffuseTexel<Real>& texel, Real cosine) {
+  return Real(1 / kPiOfForms) * dot(sky, turn_zonal(cone_zonal_harmonics(cosine), texel.bent_normal));
+}
+
 /// Names of ways to shade.
 inline constexpr const char* kAoProbe = "AO, probe";
 inline constexpr const char* kBentProbe = "bent normal, probe";
@@ -54,6 +60,7 @@ inline constexpr const char* kAoHarmonics = "AO, SH9";
 inline constexpr const char* kBentHarmonics = "bent normal, SH9";
 inline constexpr const char* kTripleProduct = "triple product, SH9";
 inline constexpr const char* kDirectionalGtao = "directional GTAO, SH9";
+inline constexpr const char* kSpreadCone = "cone of the spread, SH9";
 inline constexpr const char* kOwnHarmonics = "sh map, SH9";
 
 /// What a cone and its cosine make in nine harmonics, for a cone about the bent normal whose normal is turned

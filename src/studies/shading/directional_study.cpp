@@ -1,5 +1,6 @@
 #include "shading/directional_study.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -33,13 +34,14 @@ struct ShaderSky {
 struct ShadedReceiver {
   DiffuseTexel<double> texel;
   const Harmonics* own = nullptr;  ///< of its `sh` map; null where there is none
+  double spread_cosine = 1;        ///< of the cone of the spread; NaN where that is not known
 };
 
 /// A way to shade one receiver under one sky.
 struct ShadingMethod {
   std::string name = {};
   bool by_probe = false;
-  bool by_own_harmonics = false;
+  bool is_baked = false;  ///< from maps that GTAO does not make
   std::function<Eigen::Vector3d(const ShaderSky& sky, const ShadedReceiver& receiver)> shade = {};
 };
 
@@ -85,8 +87,17 @@ std::vector<ShadingMethod> shading_methods() {
                                          const Texel& texel) { return shade_by_triple_product(sky, texel); }),
       harmonic_method(kDirectionalGtao,
                       [](const Harmonics& sky, const Texel& texel) { return shade_by_cone(sky, texel); }),
+      {.name = kSpreadCone,
+       .is_baked = true,
+       .shade =
+           [](const ShaderSky& sky, const ShadedReceiver& receiver) {
+             const auto shade = [&](std::size_t channel) {
+               return shade_by_given_cone(sky.harmonics.at(channel), receiver.texel, receiver.spread_cosine);
+             };
+             return Eigen::Vector3d(shade(0), shade(1), shade(2));
+           }},
       {.name = kOwnHarmonics,
-       .by_own_harmonics = true,
+       .is_baked = true,
        .shade = [](const ShaderSky& sky, const ShadedReceiver& receiver) {
          return Eigen::Vector3d(dot(*receiver.own, sky.harmonics[0]), dot(*receiver.own, sky.harmonics[1]),
                                 dot(*receiver.own, sky.harmonics[2]));
@@ -101,7 +112,8 @@ ShadedReceiver receiver_of(const Surface& surface, const ReceiverGrid& grid, con
   return {.texel = {.normal = to_direction(normal_at(surface, grid.texels[receiver])),
                     .bent_normal = to_direction(open.bent_normal),
                     .sky = SkyViewFactor<double>(open.sky_view_factor)},
-          .own = source.harmonics.empty() ? nullptr : &source.harmonics[receiver]};
+          .own = source.harmonics.empty() ? nullptr : &source.harmonics[receiver],
+          .spread_cosine = std::cos(open.spread_half_angle)};
 }
 
 bool is_missing(const Surface& surface, std::size_t texel) {
@@ -146,6 +158,7 @@ Shaded find_harmonic_light(const ShaderSky& sky, const OpennessSource& exact) {
   return light;
 }
 
+/// All 0 where no sample is present.
 DirectionalRow measure_shading(const Shaded& found, const Shaded& truth) {
   DirectionalRow row;
   double count = 0;
@@ -157,7 +170,7 @@ DirectionalRow measure_shading(const Shaded& found, const Shaded& truth) {
     row.bias += error.mean();
     ++count;
   }
-  if (count == 0) throw Error("no sample is present");
+  count = std::max(count, 1.0);
   row.mrse /= count;
   row.rmse = std::sqrt(row.rmse / count);
   row.bias /= count;
@@ -169,6 +182,37 @@ ShadedPicture make_picture(const ReceiverGrid& grid, const Shaded& light) {
   picture.light = Image<Vector3>(grid.columns, grid.rows);
   for (std::size_t i = 0; i < light.size(); ++i) picture.light.values[i] = to_vector3(light[i].cast<float>());
   return picture;
+}
+
+Shaded shade_all(const Surface& surface, const ReceiverGrid& grid, const OpennessSource& source,
+                 const ShaderSky& sky, const ShadingMethod& method) {
+  Shaded found(grid.texels.size(), nothing_known());
+  parallel_for(static_cast<std::int64_t>(found.size()), [&](std::int64_t i) {
+    const auto at = static_cast<std::size_t>(i);
+    if (!is_missing(surface, grid.texels[at]))
+      found[at] = method.shade(sky, receiver_of(surface, grid, source, at));
+  });
+  return found;
+}
+
+/// What a picture is drawn of.
+struct DrawnWindow {
+  const Shaded& truth;
+  const OpennessSource& exact;
+};
+
+/// The truth, and every way to shade, on a window under a sky.
+void draw_shading(const Surface& surface, const ReceiverGrid& window, const DrawnWindow& drawn,
+                  const ShaderSky& sky, std::vector<ShadedPicture>& pictures) {
+  pictures.push_back(make_picture(window, drawn.truth));
+  pictures.back().sky = sky.sky.name;
+  for (const ShadingMethod& method : shading_methods()) {
+    const Shaded found = shade_all(surface, window, drawn.exact, sky, method);
+    pictures.push_back(make_picture(window, found));
+    pictures.back().sky = sky.sky.name;
+    pictures.back().method = method.name;
+    pictures.back().mrse = measure_shading(found, drawn.truth).mrse;
+  }
 }
 
 /// Over the first receivers under one sky, on one processor.
@@ -194,6 +238,7 @@ OperationCount count_shading(const std::string& method) {
     if (method == kBentHarmonics) shade_by_bent_normal(sky, texel);
     if (method == kTripleProduct) shade_by_triple_product(sky, texel);
     if (method == kDirectionalGtao) shade_by_cone(sky, texel);
+    if (method == kSpreadCone) shade_by_given_cone(sky, texel, Counted(0.5));
     if (method == kOwnHarmonics) dot(sky, sky);
   });
 }
@@ -222,23 +267,22 @@ DirectionalStudy study_directional(const Surface& surface, const DirectionalStud
   for (const NamedSky& sky : options.skies) check_sky_light(sky.light);
   DirectionalStudy study;
   study.grid = pick_receiver_grid(surface, kShadedSide, options.seed);
+  if (std::all_of(study.grid.texels.begin(), study.grid.texels.end(),
+                  [&](std::size_t texel) { return is_missing(surface, texel); }))
+    throw Error("no sample is present where the study looks");
   const std::vector<Shaded> truths = find_true_light(surface, study.grid, options);
   const std::vector<OpennessSource> sources = find_openness(surface, study.grid, options.watch);
+  const ReceiverGrid window = pick_receiver_window(surface, kShadedSide);
+  const std::vector<Shaded> window_truths = find_true_light(surface, window, options);
+  const OpennessSource exact = find_exact_openness(surface, window, options.watch);
   for (std::size_t s = 0; s < options.skies.size(); ++s) {
     const NamedSky& named = options.skies[s];
     const ShaderSky sky{named, open_irradiance(named.light, kProbeRows), project_sky(named.light)};
     const Shaded harmonic_truth = find_harmonic_light(sky, sources.front());
-    study.pictures.push_back(make_picture(study.grid, truths[s]));
-    study.pictures.back().sky = named.name;
     for (const ShadingMethod& method : shading_methods()) {
       for (const OpennessSource& source : sources) {
-        if (method.by_own_harmonics && source.harmonics.empty()) continue;
-        Shaded found(study.grid.texels.size(), nothing_known());
-        parallel_for(static_cast<std::int64_t>(found.size()), [&](std::int64_t i) {
-          const auto at = static_cast<std::size_t>(i);
-          if (!is_missing(surface, study.grid.texels[at]))
-            found[at] = method.shade(sky, receiver_of(surface, study.grid, source, at));
-        });
+        if (method.is_baked && source.harmonics.empty()) continue;
+        const Shaded found = shade_all(surface, study.grid, source, sky, method);
         for (const bool as_harmonics : {false, true}) {
           if (as_harmonics && method.by_probe) continue;  // in nine harmonics it is the way by harmonics
           DirectionalRow row = measure_shading(found, as_harmonics ? harmonic_truth : truths[s]);
@@ -248,14 +292,9 @@ DirectionalStudy study_directional(const Surface& surface, const DirectionalStud
           row.method = method.name;
           study.rows.push_back(row);
         }
-        if (&source != &sources.front()) continue;
-        ShadedPicture picture = make_picture(study.grid, found);
-        picture.sky = named.name;
-        picture.method = method.name;
-        picture.mrse = (study.rows.end() - (method.by_probe ? 1 : 2))->mrse;
-        study.pictures.push_back(std::move(picture));
       }
     }
+    draw_shading(surface, window, {window_truths[s], exact}, sky, study.pictures);
     if (s == 0) study.costs = find_costs(surface, study.grid, sources.front(), sky);
   }
   study.forms = judge_cone_forms(kFormSteps);

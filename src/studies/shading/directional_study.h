@@ -42,7 +42,7 @@ struct ShadingCost {
   int lookups = 0;         ///< of the sky
 };
 
-/// A picture of the receivers' grid.
+/// A picture of a window in the map's middle.
 struct ShadedPicture {
   std::string sky = {};
   std::string method = {};  ///< empty: the truth

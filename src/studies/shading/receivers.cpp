@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "bake/bent_cone.h"
 #include "base/hash.h"
 #include "base/parallel.h"
 #include "base/texel_algebra.h"
@@ -16,26 +17,6 @@ namespace {
 
 Eigen::Vector3d bent_or_normal(const Eigen::Vector3d& bent, const Eigen::Vector3d& normal) {
   return bent.norm() > 0 ? Eigen::Vector3d(bent.normalized()) : normal;
-}
-
-OpennessSource find_exact_openness(const Surface& surface, const ReceiverGrid& grid, const Watch& watch) {
-  const ExactWalker walker(surface, kOpennessAzimuths);
-  OpennessSource source{.name = kExactOpenness, .receivers = std::vector<Openness>(grid.texels.size())};
-  source.harmonics.resize(grid.texels.size());
-  Progress progress("exact openness", static_cast<std::int64_t>(grid.texels.size()), watch);
-  parallel_for(
-      static_cast<std::int64_t>(grid.texels.size()),
-      [&](std::int64_t i) {
-        const auto at = static_cast<std::size_t>(i);
-        const auto width = static_cast<std::size_t>(surface.width());
-        const ExactSky sky = find_exact_sky(walker, static_cast<int>(grid.texels[at] / width),
-                                            static_cast<int>(grid.texels[at] % width));
-        source.receivers[at] = {sky.sky_view_factor,
-                                bent_or_normal(sky.first, normal_at(surface, grid.texels[at]))};
-        source.harmonics[at] = harmonics_of_moments(sky.sky_view_factor, sky.first, sky.second);
-      },
-      &progress);
-  return source;
 }
 
 OpennessSource find_baked_openness(const Surface& surface, const ReceiverGrid& grid, const Watch& watch) {
@@ -51,7 +32,8 @@ OpennessSource find_baked_openness(const Surface& surface, const ReceiverGrid& g
     std::array<double, 5> second{};
     for (std::size_t k = 0; k < second.size(); ++k)
       second.at(k) = static_cast<double>(found.moments.second.values[texel].at(k));
-    source.receivers.push_back({sky, bent_or_normal(first, normal_at(surface, texel))});
+    source.receivers.push_back({sky, bent_or_normal(first, normal_at(surface, texel)),
+                                cone_of_spread(sky, found.moments.first.values[texel])});
     source.harmonics.push_back(harmonics_of_moments(sky, first, second));
   }
   return source;
@@ -65,7 +47,8 @@ OpennessSource find_gtao_openness(const Surface& surface, const ReceiverGrid& gr
   OpennessSource source{.name = kGtaoOpenness};
   for (const std::size_t texel : grid.texels) {
     source.receivers.push_back({static_cast<double>(found.sky_view_factor.values[texel]),
-                                as_eigen(found.bent_normal.values[texel]).cast<double>().normalized()});
+                                as_eigen(found.bent_normal.values[texel]).cast<double>().normalized(),
+                                std::numeric_limits<double>::quiet_NaN()});
   }
   return source;
 }
@@ -90,6 +73,38 @@ ReceiverGrid pick_receiver_grid(const Surface& surface, int most, std::uint64_t 
     }
   }
   return grid;
+}
+
+ReceiverGrid pick_receiver_window(const Surface& surface, int most) {
+  ReceiverGrid window{.columns = std::min(surface.width(), most), .rows = std::min(surface.height(), most)};
+  const int top = (surface.height() - window.rows) / 2;
+  const int left = (surface.width() - window.columns) / 2;
+  for (int row = 0; row < window.rows; ++row) {
+    for (int column = 0; column < window.columns; ++column)
+      window.texels.push_back(surface.map.height.index(top + row, left + column));
+  }
+  return window;
+}
+
+OpennessSource find_exact_openness(const Surface& surface, const ReceiverGrid& grid, const Watch& watch) {
+  const ExactWalker walker(surface, kOpennessAzimuths);
+  OpennessSource source{.name = kExactOpenness, .receivers = std::vector<Openness>(grid.texels.size())};
+  source.harmonics.resize(grid.texels.size());
+  Progress progress("exact openness", static_cast<std::int64_t>(grid.texels.size()), watch);
+  parallel_for(
+      static_cast<std::int64_t>(grid.texels.size()),
+      [&](std::int64_t i) {
+        const auto at = static_cast<std::size_t>(i);
+        const auto width = static_cast<std::size_t>(surface.width());
+        const ExactSky sky = find_exact_sky(walker, static_cast<int>(grid.texels[at] / width),
+                                            static_cast<int>(grid.texels[at] % width));
+        source.receivers[at] = {sky.sky_view_factor,
+                                bent_or_normal(sky.first, normal_at(surface, grid.texels[at])),
+                                cone_of_spread(sky.sky_view_factor, to_vector3(sky.first.cast<float>()))};
+        source.harmonics[at] = harmonics_of_moments(sky.sky_view_factor, sky.first, sky.second);
+      },
+      &progress);
+  return source;
 }
 
 std::vector<OpennessSource> find_openness(const Surface& surface, const ReceiverGrid& grid,

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -11,21 +12,26 @@
 
 namespace heightlight {
 
-/// Texels that a study shades: one of every cell of a grid over the map, picked by a hash, so that they make
-/// a picture and miss no pattern.
+/// Texels that a study shades.
 struct ReceiverGrid {
   int columns = 0;
   int rows = 0;
   std::vector<std::size_t> texels = {};  ///< row by row; of a map's texels
 };
 
-/// As many as make no side longer than `most`.
+/// One of every cell of a grid over the map, picked by a hash, so that they miss no pattern; as many as make
+/// no side longer than `most`.
 ReceiverGrid pick_receiver_grid(const Surface& surface, int most, std::uint64_t seed);
+
+/// All texels of a window in the map's middle, no side of which is longer than `most`: for pictures.
+ReceiverGrid pick_receiver_window(const Surface& surface, int most);
 
 /// What a shader is told of a texel.
 struct Openness {
   double sky_view_factor = 1;  ///< A; NaN where the sample is missing
   Eigen::Vector3d bent_normal = Eigen::Vector3d::UnitZ();
+  /// Of the cone whose directions are spread as much (bent_cone.h), rad; NaN where that is not known.
+  double spread_half_angle = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// Of all receivers, as one way of finding it has it.
@@ -43,7 +49,10 @@ inline constexpr const char* kGtaoOpenness = "GTAO";
 /// Azimuths of exact horizons that openness is found by.
 constexpr int kOpennessAzimuths = 256;
 
-/// By exact horizons; as `bake` finds it at its default error; by GTAO as games run it, three slices of three
+/// By exact horizons.
+OpennessSource find_exact_openness(const Surface& surface, const ReceiverGrid& grid, const Watch& watch);
+
+/// The same; as `bake` finds it at its default error; by GTAO as games run it, three slices of three
 /// steps a side that reach as far as the relief is high. Throws what solve throws.
 std::vector<OpennessSource> find_openness(const Surface& surface, const ReceiverGrid& grid,
                                           const Watch& watch);

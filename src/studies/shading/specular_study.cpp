@@ -161,13 +161,13 @@ double fit_cone_share(const SpecularScene& scene, const std::vector<SpecularTrut
     return squares;
   };
   constexpr double kGolden = 0.6180339887498949;
-  double low = std::log(1e-5);
+  double low = std::log(1e-12);
   double high = std::log(0.9);
   double left = high - kGolden * (high - low);
   double right = low + kGolden * (high - low);
   double at_left = squares_at(left);
   double at_right = squares_at(right);
-  for (int step = 0; step < 14; ++step) {
+  for (int step = 0; step < 18; ++step) {
     if (at_left < at_right) {
       high = right;
       right = left;
@@ -187,7 +187,7 @@ double fit_cone_share(const SpecularScene& scene, const std::vector<SpecularTrut
 
 SpecularPicture make_picture(const ReceiverGrid& grid, const SpecularTruth& truth,
                              const std::vector<double>& values) {
-  SpecularPicture picture{.roughness = truth.roughness, .view = truth.view};
+  SpecularPicture picture{.roughness = truth.roughness};
   picture.occlusion = Map(grid.columns, grid.rows);
   for (std::size_t i = 0; i < values.size(); ++i) picture.occlusion.values[i] = static_cast<float>(values[i]);
   return picture;
@@ -207,28 +207,41 @@ double time_method(const SpecularScene& scene, const SpecularMethod& method, con
   return sum < 0 ? 0 : 1e9 * cost.wall / static_cast<double>(texels.size());
 }
 
-void try_methods(const SpecularScene& scene, const SpecularStudyOptions& options, SpecularStudy& study) {
-  const std::vector<SpecularMethod> methods = specular_methods(options.tables, study.fitted_share);
+void try_methods(const SpecularScene& scene, const std::vector<SpecularMethod>& methods,
+                 SpecularStudy& study) {
   for (const SpecularTruth& truth : study.truths) {
-    study.pictures.push_back(make_picture(study.grid, truth, truth.occlusion));
     for (const SpecularMethod& method : methods) {
       for (std::size_t s = 0; s < (method.takes_openness ? scene.sources.size() : 1); ++s) {
-        std::vector<double> errors = find_errors(scene, s, method, truth);
-        SpecularRow row = measure_method(scene, errors, truth);
+        SpecularRow row = measure_method(scene, find_errors(scene, s, method, truth), truth);
         row.input = method.takes_openness ? scene.sources[s].name : "";
         row.method = method.name;
         study.rows.push_back(row);
-        if (s > 0 || !method.shown) continue;
-        for (std::size_t i = 0; i < errors.size(); ++i) errors[i] += truth.occlusion[i];
-        SpecularPicture picture = make_picture(study.grid, truth, errors);
-        picture.method = method.name;
-        picture.rmse = row.rmse;
-        study.pictures.push_back(std::move(picture));
       }
     }
   }
   for (const SpecularMethod& method : methods)
     study.times.push_back({method.name, time_method(scene, method, study.truths[study.truths.size() / 2])});
+}
+
+/// The methods that are shown, on a window.
+std::vector<SpecularPicture> draw_methods(const SpecularScene& scene, const RayCaster& caster,
+                                          const std::vector<SpecularMethod>& methods,
+                                          const SpecularStudyOptions& options) {
+  std::vector<SpecularPicture> pictures;
+  for (const double roughness : options.roughness) {
+    const SpecularTruth truth = find_truth(scene, caster, roughness, scene.views.size() / 2, options);
+    pictures.push_back(make_picture(scene.grid, truth, truth.occlusion));
+    for (const SpecularMethod& method : methods) {
+      if (!method.shown) continue;
+      std::vector<double> values = find_errors(scene, 0, method, truth);
+      const double rmse = measure_method(scene, values, truth).rmse;
+      for (std::size_t i = 0; i < values.size(); ++i) values[i] += truth.occlusion[i];
+      pictures.push_back(make_picture(scene.grid, truth, values));
+      pictures.back().method = method.name;
+      pictures.back().rmse = rmse;
+    }
+  }
+  return pictures;
 }
 
 }  // namespace
@@ -251,7 +264,13 @@ SpecularStudy study_specular(const Surface& surface, const SpecularStudyOptions&
     }
   }
   study.fitted_share = fit_cone_share(scene, study.truths);
-  try_methods(scene, options, study);
+  const std::vector<SpecularMethod> methods = specular_methods(options.tables, study.fitted_share);
+  try_methods(scene, methods, study);
+  const ReceiverGrid window = pick_receiver_window(surface, kGridSide);
+  const std::vector<OpennessSource> exact{find_exact_openness(surface, window, options.watch)};
+  const StoredSlopes window_slopes = find_slopes(surface, window);
+  study.pictures =
+      draw_methods({surface, window, exact, window_slopes, scene.views}, caster, methods, options);
   return study;
 }
 

@@ -46,12 +46,11 @@ struct SpecularTruth {
   std::size_t narrow = 0;  ///< of these, with A below kNarrowSky
 };
 
-/// A picture of the receivers' grid.
+/// A picture of a window in the map's middle.
 struct SpecularPicture {
   std::string method = {};  ///< empty: the truth
   double roughness = 0;
-  std::size_t view = 0;
-  double rmse = 0;
+  double rmse = 0;  ///< over the window
   Map occlusion = {};
 };
 
@@ -66,7 +65,8 @@ struct SpecularStudy {
   std::vector<SpecularTruth> truths = {};
   std::vector<SpecularRow> rows = {};
   std::vector<MethodTime> times = {};
-  std::vector<SpecularPicture> pictures = {};  ///< by exact openness; per roughness and view the truth first
+  /// By exact openness, at the view in the middle of the list; per roughness the truth first.
+  std::vector<SpecularPicture> pictures = {};
   double fitted_share = 0.01;  ///< u of cone against cone that errs least here, by exact openness
 };
 
