@@ -93,17 +93,20 @@ def bake(
     horizon_azimuths: int = 4,
     azimuth_convention: Optional[str] = None,
     below_horizontal: str = "sky",
+    roughness: float = 0.13,
+    view: Iterable[float] = (0, 0, 1),
     seed: int = 1,
     threads: Optional[int] = None,
     memory: Optional[int] = None,
     progress: Any = False,
 ) -> Bake:
     """Maps of a material: "ao", "multibounce", "bent-normal", "bent-cone", "normal", "ao-n", "horizon", "sh",
-    "height", and the definitions of `definitions()` (`maps()` says what each is), found together.
+    "height", "specular-occlusion", and the definitions of `definitions()` (`maps()` says what each is), found together.
 
     `albedo` is of multibounce: one number or three. `uniform_ao`: α in place of A. `y_down`: vectors as Direct3D
     has them. `azimuth_convention`: horizons count "north", clockwise, or "math", from x toward y; where None,
-    north on open maps. Other arguments as those of `sky()`.
+    north on open maps. `roughness` (GGX's alpha) and `view` (x, y, z toward the viewer, z > 0) are of
+    specular-occlusion. Other arguments as those of `sky()`.
     """
     names = map_names(maps)
     surface, _ = surface_of(height, texel, boundary)
@@ -117,5 +120,9 @@ def bake(
         azimuth_convention=azimuth_convention,
         below_horizontal=below_horizontal,
     )
+    choice["roughness"] = float(roughness)
+    choice["view"] = [float(component) for component in view]
+    if len(choice["view"]) != 3:
+        raise ValueError("view: must be a vector, x, y and z, toward the viewer")
     chosen = settings(error, azimuths, None, seed, threads, memory, progress)
     return Bake(_native.Bake(surface, chosen, names, choice), names)

@@ -77,7 +77,8 @@ void draw_directional(StagedFolder& folder, const DirectionalStudy& study, const
 
 void study_directional_on(const DirectionalRun& run, const Surface& surface, LoadedHeightmap& loaded,
                           StagedFolder& folder, Plots& plots) {
-  DirectionalStudyOptions options{.seed = run.run.seed, .watch = terminal_watch(run.run.quiet)};
+  DirectionalStudyOptions options{
+      .memory = run.run.memory, .seed = run.run.seed, .watch = terminal_watch(run.run.quiet)};
   if (!run.sky.empty())
     options.skies.push_back(
         {printable(run.sky.filename()), normalised(load_sky_light(run.sky, run.run.memory))});

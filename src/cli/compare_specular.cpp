@@ -29,7 +29,8 @@ namespace {
 using nlohmann::ordered_json;
 
 SpecularStudyOptions specular_options(const SpecularRun& run) {
-  SpecularStudyOptions options{.seed = run.run.seed, .watch = terminal_watch(run.run.quiet)};
+  SpecularStudyOptions options{
+      .memory = run.run.memory, .seed = run.run.seed, .watch = terminal_watch(run.run.quiet)};
   const std::string& text = run.specular.roughness;
   const std::optional<std::vector<double>> roughness = parse_number_list(text);
   if (!roughness) throw UsageError("roughness", text, "must be numbers above 0, and at most 1");

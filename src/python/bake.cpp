@@ -59,6 +59,11 @@ BakeOptions read_bake_options(const std::vector<std::string>& maps, const py::di
   if (choice.contains("azimuth_convention"))
     options.azimuth_convention = azimuth_convention_named(choice["azimuth_convention"].cast<std::string>());
   options.below = below_horizontal_named(choice["below_horizontal"].cast<std::string>());
+  if (choice.contains("roughness")) options.gloss.roughness = choice["roughness"].cast<double>();
+  if (choice.contains("view")) {
+    const auto view = choice["view"].cast<std::vector<float>>();
+    options.view = {view.at(0), view.at(1), view.at(2)};
+  }
   const Request request = make_request(settings);
   if (request.accuracy.visibility == Visibility::rays)
     throw UsageError("rays", "", "bake no maps; leave them out");

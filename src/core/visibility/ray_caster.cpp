@@ -8,6 +8,7 @@
 
 #include "base/texel_algebra.h"
 #include "heightlight/error.h"
+#include "heightlight/occlusion_forms.h"
 #include "visibility/slope_bounds.h"
 
 namespace heightlight {
@@ -22,19 +23,6 @@ HemisphereDirections make_directions(const RayOptions& options) {
 }
 
 std::size_t padded(int rays) { return static_cast<std::size_t>(rays + kRayPadding); }
-
-/// Two unit vectors that complete `n` (z ≥ 0) to a right-handed frame; no branch near the pole (Duff et al.
-/// 2017).
-struct Frame {
-  Eigen::Vector3f tangent, bitangent, normal;
-
-  explicit Frame(const Eigen::Vector3f& n) : normal(n) {
-    const float a = -1.0F / (1.0F + n.z());
-    const float b = n.x() * n.y() * a;
-    tangent = {1.0F + n.x() * n.x() * a, b, -n.x()};
-    bitangent = {b, 1.0F + n.y() * n.y() * a, -n.y()};
-  }
-};
 
 /// From world axes to those of grid rays.
 struct GridTurn {
@@ -103,7 +91,8 @@ RayCaster::RayCaster(const Surface& surface, const RayOptions& options)
 
 RayBundle RayCaster::aim_directions(int row, int column, const LatticeTurn& turn,
                                     RayWorkspace& workspace) const {
-  const Frame frame(as_eigen(surface_.normal(row, column)));
+  const Vector3& normal = surface_.normal(row, column);
+  const NormalFrame<float> frame({normal.x, normal.y, normal.z});
   const auto table = static_cast<std::size_t>(turn.table);
   const float* cosine = directions_.cosine[table].data();
   const float* sine = directions_.sine[table].data();
@@ -113,12 +102,12 @@ RayBundle RayCaster::aim_directions(int row, int column, const LatticeTurn& turn
   for (int k = 0; k < directions_.count; ++k) {
     const float along_tangent = sine[k] * (azimuth_cosine[k] * turn.cosine - azimuth_sine[k] * turn.sine);
     const float along_bitangent = sine[k] * (azimuth_sine[k] * turn.cosine + azimuth_cosine[k] * turn.sine);
-    const float x = along_tangent * frame.tangent.x() + along_bitangent * frame.bitangent.x() +
-                    cosine[k] * frame.normal.x();
-    const float y = along_tangent * frame.tangent.y() + along_bitangent * frame.bitangent.y() +
-                    cosine[k] * frame.normal.y();
-    const float z = along_tangent * frame.tangent.z() + along_bitangent * frame.bitangent.z() +
-                    cosine[k] * frame.normal.z();
+    const float x =
+        along_tangent * frame.tangent.x + along_bitangent * frame.bitangent.x + cosine[k] * frame.normal.x;
+    const float y =
+        along_tangent * frame.tangent.y + along_bitangent * frame.bitangent.y + cosine[k] * frame.normal.y;
+    const float z =
+        along_tangent * frame.tangent.z + along_bitangent * frame.bitangent.z + cosine[k] * frame.normal.z;
     turn_to_grid.set_ray(static_cast<std::size_t>(k), {x, y, z}, workspace);
   }
   return bundle_of(row, column, directions_.count, workspace);

@@ -271,7 +271,8 @@ DirectionalStudy study_directional(const Surface& surface, const DirectionalStud
                   [&](std::size_t texel) { return is_missing(surface, texel); }))
     throw Error("no sample is present where the study looks");
   const std::vector<Shaded> truths = find_true_light(surface, study.grid, options);
-  const std::vector<OpennessSource> sources = find_openness(surface, study.grid, options.watch);
+  const std::vector<OpennessSource> sources =
+      find_openness(surface, study.grid, options.memory, options.watch);
   const ReceiverGrid window = pick_receiver_window(surface, kShadedSide);
   const std::vector<Shaded> window_truths = find_true_light(surface, window, options);
   const OpennessSource exact = find_exact_openness(surface, window, options.watch);

@@ -14,6 +14,7 @@ namespace heightlight {
 
 struct DirectionalStudyOptions {
   std::vector<NamedSky> skies = compared_skies();
+  std::uint64_t memory = ~0ULL;  ///< bytes that finding baked maps may take
   std::uint64_t seed = 1;
   Watch watch = {};
 };

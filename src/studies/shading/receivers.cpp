@@ -19,10 +19,12 @@ Eigen::Vector3d bent_or_normal(const Eigen::Vector3d& bent, const Eigen::Vector3
   return bent.norm() > 0 ? Eigen::Vector3d(bent.normalized()) : normal;
 }
 
-OpennessSource find_baked_openness(const Surface& surface, const ReceiverGrid& grid, const Watch& watch) {
+OpennessSource find_baked_openness(const Surface& surface, const ReceiverGrid& grid, std::uint64_t memory,
+                                   const Watch& watch) {
   Request request;
   request.wanted.sky = request.wanted.moments.first = request.wanted.moments.second = true;
   request.checks.sky = false;
+  request.limits.memory = memory;
   request.watch = watch;
   const Results found = solve(surface, request);
   OpennessSource source{.name = kBakedOpenness};
@@ -108,8 +110,8 @@ OpennessSource find_exact_openness(const Surface& surface, const ReceiverGrid& g
 }
 
 std::vector<OpennessSource> find_openness(const Surface& surface, const ReceiverGrid& grid,
-                                          const Watch& watch) {
-  return {find_exact_openness(surface, grid, watch), find_baked_openness(surface, grid, watch),
+                                          std::uint64_t memory, const Watch& watch) {
+  return {find_exact_openness(surface, grid, watch), find_baked_openness(surface, grid, memory, watch),
           find_gtao_openness(surface, grid)};
 }
 

@@ -53,9 +53,10 @@ constexpr int kOpennessAzimuths = 256;
 OpennessSource find_exact_openness(const Surface& surface, const ReceiverGrid& grid, const Watch& watch);
 
 /// The same; as `bake` finds it at its default error; by GTAO as games run it, three slices of three
-/// steps a side that reach as far as the relief is high. Throws what solve throws.
+/// steps a side that reach as far as the relief is high. Throws what solve throws, which may take so many
+/// bytes.
 std::vector<OpennessSource> find_openness(const Surface& surface, const ReceiverGrid& grid,
-                                          const Watch& watch);
+                                          std::uint64_t memory, const Watch& watch);
 
 /// Unit normal of a texel.
 Eigen::Vector3d normal_at(const Surface& surface, std::size_t texel);

@@ -251,7 +251,8 @@ SpecularStudy study_specular(const Surface& surface, const SpecularStudyOptions&
   for (const Vector3& view : options.views) check_view(view);
   SpecularStudy study;
   study.grid = pick_receiver_grid(surface, kGridSide, options.seed);
-  const std::vector<OpennessSource> sources = find_openness(surface, study.grid, options.watch);
+  const std::vector<OpennessSource> sources =
+      find_openness(surface, study.grid, options.memory, options.watch);
   const StoredSlopes slopes = find_slopes(surface, study.grid);
   SpecularScene scene{
       .surface = surface, .grid = study.grid, .sources = sources, .slopes = slopes, .views = {}};

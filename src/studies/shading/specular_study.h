@@ -17,6 +17,7 @@ struct SpecularStudyOptions {
   std::vector<Vector3> views = {};         ///< toward the viewer; world axes, z > 0; at least one
   std::vector<SpecularTable> tables = {};  ///< of GTSO
   int rays = 512;                          ///< of the truth, per receiver
+  std::uint64_t memory = ~0ULL;            ///< bytes that finding baked maps may take
   std::uint64_t seed = 1;
   Watch watch = {};
 };

@@ -218,7 +218,9 @@ void check_windowed(const WindowedTask& task) {
   };
   if (options.light_channels > 0) refuse("light", "", "light of one's own");
   if (!options.albedo.varying.empty()) refuse("albedo", "", "an albedo that varies over the map");
-  if (is_wanted(options, MaterialMap::ao_n)) refuse("maps", "ao-n", "ao-n");
+  for (const MaterialMap map : {MaterialMap::ao_n, MaterialMap::specular_occlusion}) {
+    if (is_wanted(options, map)) refuse("maps", to_string(map), to_string(map));
+  }
   for (const MaterialMapName& entry : material_maps()) {
     if (definition_of(entry.map) && is_wanted(options, entry.map)) refuse("maps", entry.name, entry.name);
   }
