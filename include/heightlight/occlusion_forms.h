@@ -419,7 +419,7 @@ class VisibleNormalPolygon {
     const Direction<Real> plane = cross(from, to);
     const Real sine_squared = dot(plane, plane);
     const Real cosine = dot(from, to);
-    const Real least(1e-12);  // from here on the angle is its sine
+    const Real least = static_cast<Real>(1e-12);  // from here on the angle is its sine
     const Real angle_over_sine =
         sine_squared < least ? Real(1) : angle_of_cosine(cosine) / sqrt(sine_squared);
     return angle_over_sine * dot(plane, stretched_view_);
