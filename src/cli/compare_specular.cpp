@@ -92,8 +92,11 @@ void draw_specular(StagedFolder& folder, const SpecularStudy& study, const std::
 void study_specular_on(const SpecularRun& run, const Surface& surface, LoadedHeightmap& loaded,
                        StagedFolder& folder, Plots& plots) {
   SpecularStudyOptions options = specular_options(run);
-  for (const int side : {16, 32, 8}) options.tables.push_back(make_specular_table(side, options.watch));
-  if (!run.specular.table.empty()) options.tables.push_back(read_specular_table(run.specular.table));
+  for (const int side : {16, 32, 8})
+    options.tables.push_back(
+        {fmt::format("GTSO, table of {}^4", side), make_specular_table(side, options.watch)});
+  if (!run.specular.table.empty())
+    options.tables.push_back({"GTSO, table of --table", read_specular_table(run.specular.table)});
   const SpecularStudy study = study_specular(surface, options);
   const std::string name = printable(run.map.path.filename());
   write_specular_csv(folder.file("specular.csv"), study, options.views);

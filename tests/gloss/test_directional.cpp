@@ -99,7 +99,7 @@ TEST_CASE("ways to guess specular occlusion are ordered as they should be", "[gl
   const Surface surface = build_surface(make_synth_map("fbm", 40, Boundary::tile, 0.4));
   SpecularStudyOptions options{
       .roughness = {0.05, 0.3}, .views = {{0, 0, 1}, {0.6F, 0.3F, 0.7F}}, .rays = 256};
-  options.tables.push_back(make_specular_table(8));
+  options.tables.push_back({"GTSO, table of 8^4", make_specular_table(8)});
   const SpecularStudy study = study_specular(surface, options);
   REQUIRE(study.truths.size() == 4);
   const auto rmse = [&](const std::string& method, const SpecularTruth& truth) {

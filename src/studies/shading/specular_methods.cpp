@@ -28,10 +28,8 @@ SpecularMethod polygon_method(std::size_t count) {
           }};
 }
 
-SpecularMethod table_method(const SpecularTable& table, bool shown) {
-  return {.name = fmt::format("GTSO, table of {}^4", table.side),
-          .shown = shown,
-          .occlusion = [&table](const GlossyTexel& texel) {
+SpecularMethod table_method(const NamedTable& named, bool shown) {
+  return {.name = named.name, .shown = shown, .occlusion = [&table = named.table](const GlossyTexel& texel) {
             return look_up(table,
                            {.half_angle = angle_of_cosine(cone_cosine(SkyViewFactor{texel.sky_view_factor})),
                             .apart = texel.apart,
@@ -61,7 +59,7 @@ GlossyTexel make_glossy_texel(const Direction<double>& normal, const Direction<d
           .apart = angle_of_cosine(dot(bent_normal, mirrored))};
 }
 
-std::vector<SpecularMethod> specular_methods(const std::vector<SpecularTable>& tables, double fitted_share) {
+std::vector<SpecularMethod> specular_methods(const std::vector<NamedTable>& tables, double fitted_share) {
   std::vector<SpecularMethod> methods{
       {.name = "none", .takes_openness = false, .occlusion = [](const GlossyTexel&) { return 1.0; }},
       {.name = "AO",
@@ -76,7 +74,7 @@ std::vector<SpecularMethod> specular_methods(const std::vector<SpecularTable>& t
            }},
       cone_method("cone-cone, u 0.01", LobeConeConstants{}.share),
       cone_method(kFittedConeCone, fitted_share)};
-  for (const SpecularTable& table : tables) methods.push_back(table_method(table, &table == &tables.front()));
+  for (const NamedTable& table : tables) methods.push_back(table_method(table, &table == &tables.front()));
   methods[4].shown = true;
   methods.push_back(polygon_method(8));
   methods.push_back(polygon_method(kStoredHorizons));

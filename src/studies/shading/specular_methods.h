@@ -12,6 +12,12 @@ namespace heightlight {
 /// Azimuths of the horizons that receivers have stored.
 constexpr std::size_t kStoredHorizons = 16;
 
+/// A table of GTSO, and what reports call its method.
+struct NamedTable {
+  std::string name;
+  SpecularTable table;
+};
+
 /// All that a shader may know of a texel, for specular occlusion.
 struct GlossyTexel {
   Direction<double> normal, view;  ///< unit, n·v > 0
@@ -40,6 +46,6 @@ inline constexpr const char* kFittedConeCone = "cone-cone, u fitted here";
 
 /// All that are compared, with tables of GTSO, which must outlive them, and the u of cone against cone as it
 /// was fitted to the map.
-std::vector<SpecularMethod> specular_methods(const std::vector<SpecularTable>& tables, double fitted_share);
+std::vector<SpecularMethod> specular_methods(const std::vector<NamedTable>& tables, double fitted_share);
 
 }  // namespace heightlight

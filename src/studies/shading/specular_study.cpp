@@ -8,7 +8,6 @@
 #include "base/texel_algebra.h"
 #include "gloss/lobe_visibility.h"
 #include "heightlight/error.h"
-#include "shading/specular_methods.h"
 
 namespace heightlight {
 namespace {

@@ -8,16 +8,17 @@
 #include "heightlight/surface.h"
 #include "heightlight/watch.h"
 #include "shading/receivers.h"
+#include "shading/specular_methods.h"
 
 namespace heightlight {
 
 /// What specular occlusion is compared at.
 struct SpecularStudyOptions {
   std::vector<double> roughness{0.02, 0.13, 0.4};
-  std::vector<Vector3> views = {};         ///< toward the viewer; world axes, z > 0; at least one
-  std::vector<SpecularTable> tables = {};  ///< of GTSO
-  int rays = 512;                          ///< of the truth, per receiver
-  std::uint64_t memory = ~0ULL;            ///< bytes that finding baked maps may take
+  std::vector<Vector3> views = {};      ///< toward the viewer; world axes, z > 0; at least one
+  std::vector<NamedTable> tables = {};  ///< of GTSO
+  int rays = 512;                       ///< of the truth, per receiver
+  std::uint64_t memory = ~0ULL;         ///< bytes that finding baked maps may take
   std::uint64_t seed = 1;
   Watch watch = {};
 };
