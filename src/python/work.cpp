@@ -14,9 +14,9 @@
 #include "python/arrays.h"
 #include "python/bindings.h"
 #include "python/python_watch.h"
-#include "windows/work_check.h"
 #include "windows/given_heights.h"
 #include "windows/windowed_bake.h"
+#include "windows/work_check.h"
 
 namespace heightlight {
 namespace {

@@ -7,6 +7,7 @@
 #include "heightlight/closed_forms.h"
 #include "heightlight/gloss.h"
 #include "heightlight/occlusion_forms.h"
+#include "heightlight/shaders.h"
 #include "scratch_folder.h"
 
 // The shader text of specular occlusion, compiled as C++, says what the C++ forms say.

@@ -9,7 +9,8 @@
 
 namespace heightlight {
 
-/// Rows that tell as much of a map of so many as all of them: all, or of large maps some 256, picked by a hash.
+/// Rows that tell as much of a map of so many as all of them: all, or of large maps some 256, picked by a
+/// hash.
 inline std::vector<int> seen_rows(int height) {
   constexpr int kEnoughRows = 256;
   constexpr std::uint64_t kSeed = 1;
@@ -24,8 +25,8 @@ inline std::vector<int> seen_rows(int height) {
   return rows;
 }
 
-/// Calls visit(i, 1 − A, area) for receivers of the map, whose texels weigh 1/n_z, their area, in seen_rows. One
-/// after the other, so that sums are the same for any number of threads. `sky` is A, NaN where missing.
+/// Calls visit(i, 1 − A, area) for receivers of the map, whose texels weigh 1/n_z, their area, in seen_rows.
+/// One after the other, so that sums are the same for any number of threads. `sky` is A, NaN where missing.
 template <class Visit>
 void for_seen_places(const Map& sky, const Surface& surface, Visit&& visit) {
   for (const int row : seen_rows(sky.height)) {
