@@ -37,7 +37,7 @@ constexpr const char* kLibraryHead =
 //   sky    A, the same, cosine weighted (the AO of GTAO)
 // Measured errors: per texel on 43 map x relief cases of 17 materials, an even sky (plots/data/models.csv of
 // Heightlight's sources), of its own forms on materials that their constants were not fitted to; of cones:
-// plots/data/directional.csv. docs/shaders.md tells which function is for what. May be used without attribution.
+// plots/data/directional_*.csv. docs/shaders.md tells which function is for what. May be used without attribution.
 )";
 
 /// What a file says of its language.
