@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "files/image_file.h"
 #include "files/load_by_rows.h"
 #include "heightlight/synth.h"
 #include "remedy.h"
