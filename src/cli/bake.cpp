@@ -109,18 +109,25 @@ bool can_be_windowed(const BakeCommand& command, const BakeInput& input) {
   }
 }
 
-/// Window by window. The work goes on where it was, when an earlier process was stopped.
-BakeOutcome bake_by_windows(const BakeCommand& command, const BakeInput& input, const InputGuard& guard,
-                            bool quiet) {
+/// The same, once it is known that windows can do it, with what tells it from other requests.
+WindowedTask requested_task(const BakeCommand& command, const BakeInput& input, bool quiet) {
   WindowedTask task = windowed_task(command, input);
   check_windowed(task);
   const std::string sha256 = sha256_of_file(input.path);
   task.options.surface = surface_of(command, task.options, sha256);
   task.options.request = request_of(command, task.options, sha256, "");
   task.options.watch = terminal_watch(quiet);
+  return task;
+}
+
+/// Window by window. The work goes on where it was, when an earlier process was stopped.
+BakeOutcome bake_by_windows(const BakeCommand& command, const BakeInput& input, const InputGuard& guard,
+                            bool quiet) {
+  WindowedTask task = requested_task(command, input, quiet);
   const BakeTarget target{
       .source = input.path, .inputs = guard, .folder = command.folder, .name = input.name};
-  return bake_in_windows(std::move(task), command.windows.value_or(0), target);
+  return name_errors(input.path,
+                     [&] { return bake_in_windows(std::move(task), command.windows.value_or(0), target); });
 }
 
 /// COLUMN,ROW,WIDTH,HEIGHT.
@@ -141,12 +148,8 @@ MapRect parse_window(const std::string& text) {
 /// A window of the map alone.
 BakeOutcome bake_one_window(const BakeCommand& command, const BakeInput& input, const InputGuard& guard,
                             bool quiet) {
-  WindowedTask task = windowed_task(command, input);
   const MapRect window = parse_window(command.window);
-  const std::string sha256 = sha256_of_file(input.path);
-  task.options.surface = surface_of(command, task.options, sha256);
-  task.options.request = request_of(command, task.options, sha256, "");
-  task.options.watch = terminal_watch(quiet);
+  const WindowedTask task = requested_task(command, input, quiet);
   const BakeTarget target{
       .source = input.path, .inputs = guard, .folder = command.folder, .name = input.name};
   return name_errors(input.path, [&] { return bake_window(task, window, target); });

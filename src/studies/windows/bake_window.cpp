@@ -149,6 +149,7 @@ BakeOutcome bake_window(const WindowedTask& task, const MapRect& window, const B
   work.state.plan = plan_on(work, middle_crop(window, work.state.facts.grid));
   const int halo = total_channels(work) > 0 ? task.halo : 0;
   const WindowPlace place = widened(window, halo, work.state.facts);
+  check_window_memory(work, std::max(place.width, place.height));
   const Surface surface = surface_at(work, place, {work.state.plan->sky.walk, work.state.plan->gather.walk});
   Material material = material_of(work, surface);
   material.results.evidence = evidence_of_plan(work);

@@ -15,9 +15,12 @@
 #include "files/load_by_rows.h"
 #include "files/output_file.h"
 #include "heightlight/error.h"
+#include "heightlight/solve.h"
 #include "transport/gather_walk.h"
 #include "visibility/horizon_scene.h"
 #include "windows/sky_maps.h"
+#include "windows/step_plan.h"
+#include "windows/steps.h"
 
 namespace heightlight {
 namespace {
@@ -65,9 +68,23 @@ void check_tiling(const fs::path& map, const WorkFacts& facts) {
       "boundary");
 }
 
+/// Of planning on a crop.
+std::uint64_t plan_bytes(const WindowGrid& grid, const BakeOptions& options) {
+  return estimate_memory(std::min(kCropSide, grid.map_width), std::min(kCropSide, grid.map_height),
+                         material_request(options, AzimuthConvention::math));
+}
+
 std::uint64_t needed_bytes(const WindowGrid& grid, int first_coarse, const BakeOptions& options) {
-  return kProcessBytes + coarse_bytes(grid, first_coarse, options) +
-         window_bytes(grid, first_coarse, options);
+  return coarse_bytes(grid, first_coarse, options) + kPagedBytes +
+         std::max(window_bytes(grid, first_coarse, options), plan_bytes(grid, options));
+}
+
+[[noreturn]] void refuse_windows(const WindowGrid& grid, std::uint64_t needed, const BakeOptions& options) {
+  throw MemoryError("windows of " + std::to_string(grid.side) + " × " + std::to_string(grid.side) + " of " +
+                        std::to_string(grid.map_width) + " × " + std::to_string(grid.map_height) +
+                        " texels need " + format_byte_size(needed) + ", more than the " +
+                        format_byte_size(options.memory) + " of memory allowed; a smaller window needs less",
+                    needed - options.memory);
 }
 
 /// The largest side whose windows memory holds.
@@ -79,11 +96,7 @@ int choose_side(WindowGrid grid, int first_coarse, const BakeOptions& options) {
     needed = needed_bytes(grid, first_coarse, options);
     if (needed <= options.memory) return side;
   }
-  throw MemoryError("windows of " + std::to_string(grid.side) + " × " + std::to_string(grid.side) + " of " +
-                        std::to_string(grid.map_width) + " × " + std::to_string(grid.map_height) +
-                        " texels need " + format_byte_size(needed) + ", more than the " +
-                        format_byte_size(options.memory) + " of memory allowed",
-                    needed - options.memory);
+  refuse_windows(grid, needed, options);
 }
 
 /// Of a map whose size and boundary are known.
@@ -92,6 +105,7 @@ void choose_windows(Work& work, int side) {
   facts.first_coarse = choose_first_coarse(facts.grid, work.task.options);
   check_tiling(work.task.map, facts);
   facts.grid.side = side > 0 ? side : choose_side(facts.grid, facts.first_coarse, work.task.options);
+  check_window_memory(work, facts.grid.side);
 }
 
 /// Takes a map's rows, from which its size is first known.
@@ -191,6 +205,13 @@ std::uint64_t window_bytes(const WindowGrid& grid, int first_coarse, const BakeO
   return surface + std::max({sky, fields > 0 ? gather + reading : 0, textures, reading});
 }
 
+void check_window_memory(const Work& work, int side) {
+  WindowGrid grid = work.state.facts.grid;
+  grid.side = side;
+  const std::uint64_t needed = needed_bytes(grid, work.state.facts.first_coarse, work.task.options);
+  if (needed > work.task.options.memory) refuse_windows(grid, needed, work.task.options);
+}
+
 Work begin_work(WindowedTask task, int side) {
   check_side(side);
   Work work{.task = std::move(task), .state = {}};
@@ -222,7 +243,7 @@ Work begin_work_of(WindowedTask task, int side, const WorkFacts& facts) {
 
 std::uint64_t process_bytes(const Work& work) {
   const WorkFacts& facts = work.state.facts;
-  return needed_bytes(facts.grid, facts.first_coarse, work.task.options);
+  return kProcessBytes + needed_bytes(facts.grid, facts.first_coarse, work.task.options);
 }
 
 }  // namespace heightlight

@@ -17,8 +17,8 @@
 namespace heightlight {
 namespace {
 
-/// Of heights, A and totals, each thread keeps so much.
-constexpr std::uint64_t kPagedBytes = 24ULL << 20;
+/// What each thread keeps of each of some six maps.
+std::uint64_t bytes_per_thread() { return kPagedBytes / 6 / static_cast<std::uint64_t>(thread_count()); }
 
 /// Of the first round, or of the one that refines.
 std::filesystem::path check_path(const Work& work, bool refined) {
@@ -28,7 +28,8 @@ std::filesystem::path check_path(const Work& work, bool refined) {
 /// A map of the work, value by value.
 class PagedWindows {
  public:
-  PagedWindows(WindowFolder folder, int k) : files_(std::move(folder), k), paged_(files_, kPagedBytes) {}
+  PagedWindows(WindowFolder folder, int k)
+      : files_(std::move(folder), k), paged_(files_, bytes_per_thread()) {}
   PagedWindows(const PagedWindows&) = delete;
   PagedWindows& operator=(const PagedWindows&) = delete;
 
@@ -167,7 +168,7 @@ void check_receivers(Work& work) {
   const BakeOptions& options = work.task.options;
   const Surface header = header_of(facts);
   const WindowFiles heights(heights_folder(work), 0);
-  const PagedGround ground(heights, facts.spacing, facts.boundary, kPagedBytes);
+  const PagedGround ground(heights, facts.spacing, facts.boundary, bytes_per_thread());
   nlohmann::ordered_json found = {{"totals", nlohmann::ordered_json::array()}};
   if (total_channels(work) > 0) {
     const ExactWalker walker(header, azimuths_for_check(options.error), ground, bounds_of(work, header),
@@ -229,7 +230,7 @@ std::optional<SkyCheck> check_window_sky(const Work& work, const Material& mater
   const BakeOptions& options = work.task.options;
   const Surface header = header_of(facts);
   const WindowFiles heights(heights_folder(work), 0);
-  const PagedGround ground(heights, facts.spacing, facts.boundary, kPagedBytes);
+  const PagedGround ground(heights, facts.spacing, facts.boundary, bytes_per_thread());
   const ExactWalker walker(header, kSkyCheckAzimuths, ground, bounds_of(work, header), facts.first_coarse);
   const WindowPlace place = place_in_map(*material.surface);
   const Results& results = material.results;

@@ -27,6 +27,8 @@ void gather_window(Work& work, int window);
 /// What the gather at hand has changed of a channel, all windows together.
 ChangeSum change_of_gather(const Work& work, std::size_t channel);
 
+/// Bytes that the check keeps of heights, A and totals, all threads together.
+constexpr std::uint64_t kPagedBytes = 96ULL << 20;
 void check_receivers(Work& work);
 
 void find_window_textures(Work& work, int window);

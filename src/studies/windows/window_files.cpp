@@ -31,12 +31,11 @@ class Descriptor {
   int number_;
 };
 
-/// False at the file's end, or where it cannot be read.
-bool read_all(int descriptor, float* samples, std::size_t count, std::uint64_t offset) {
-  auto* bytes = reinterpret_cast<char*>(samples);
-  std::size_t left = count * sizeof(float);
+/// Samples from or to a place in a file, by pread or pwrite. False at the file's end, or where it fails.
+template <class Transfer, class Bytes>
+bool transfer_all(Transfer&& transfer, int descriptor, Bytes* bytes, std::size_t left, std::uint64_t offset) {
   while (left > 0) {
-    const ssize_t done = pread(descriptor, bytes, left, static_cast<off_t>(offset));
+    const ssize_t done = transfer(descriptor, bytes, left, static_cast<off_t>(offset));
     if (done < 0 && errno == EINTR) continue;
     if (done <= 0) return false;
     bytes += done;
@@ -46,18 +45,13 @@ bool read_all(int descriptor, float* samples, std::size_t count, std::uint64_t o
   return true;
 }
 
+bool read_all(int descriptor, float* samples, std::size_t count, std::uint64_t offset) {
+  return transfer_all(pread, descriptor, reinterpret_cast<char*>(samples), count * sizeof(float), offset);
+}
+
 bool write_all(int descriptor, const float* samples, std::size_t count, std::uint64_t offset) {
-  const auto* bytes = reinterpret_cast<const char*>(samples);
-  std::size_t left = count * sizeof(float);
-  while (left > 0) {
-    const ssize_t done = pwrite(descriptor, bytes, left, static_cast<off_t>(offset));
-    if (done < 0 && errno == EINTR) continue;
-    if (done <= 0) return false;
-    bytes += done;
-    offset += static_cast<std::uint64_t>(done);
-    left -= static_cast<std::size_t>(done);
-  }
-  return true;
+  return transfer_all(pwrite, descriptor, reinterpret_cast<const char*>(samples), count * sizeof(float),
+                      offset);
 }
 
 /// What two rectangles have in common.
@@ -82,11 +76,6 @@ Error lost(const fs::path& file) {
 }  // namespace
 
 fs::path WindowFolder::file(int window) const { return path / fmt::format("{:04}.raw", window); }
-
-bool WindowFolder::has(int window) const {
-  std::error_code ignored;
-  return fs::exists(file(window), ignored);
-}
 
 MapRect WindowFolder::rect(int window) const {
   const WindowBlocks blocks = window_blocks(grid.place(window), level, 0);

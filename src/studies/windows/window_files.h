@@ -17,7 +17,6 @@ struct WindowFolder {
   int level = 0;  ///< a block of 2^level × 2^level texels is one float
 
   std::filesystem::path file(int window) const;
-  bool has(int window) const;
   /// Floats of a window along an axis, as MapRect in the map's blocks.
   MapRect rect(int window) const;
   int width() const;

@@ -83,7 +83,7 @@ void write_state(const std::filesystem::path& folder, const WorkState& state);
 struct Work {
   WindowedTask task;
   WorkState state;
-  std::optional<CoarseHeights> coarse = {};  ///< once coarse_heights_of_map was asked for them
+  std::optional<CoarseHeights> coarse = {};  ///< once parts_of_map read them
 };
 
 /// Files of the windows, by what they hold.
