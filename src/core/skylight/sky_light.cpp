@@ -62,12 +62,12 @@ SkyLight two_tone_sky() {
 }
 
 SkyLight overcast_sky() {
-  constexpr int kRows = 512;
-  SkyLight sky{Image<Vector3>(2 * kRows, kRows)};
-  for (int row = 0; row < kRows / 2; ++row) {
-    const double elevation = pi / 2 - pi * (row + 0.5) / kRows;
+  constexpr int kSkyRows = 512;
+  SkyLight sky{Image<Vector3>(2 * kSkyRows, kSkyRows)};
+  for (int row = 0; row < kSkyRows / 2; ++row) {
+    const double elevation = pi / 2 - pi * (row + 0.5) / kSkyRows;
     const auto radiance = static_cast<float>(9.0 / 7 * (1 + 2 * std::sin(elevation)) / 3);
-    for (int column = 0; column < 2 * kRows; ++column)
+    for (int column = 0; column < 2 * kSkyRows; ++column)
       sky.radiance(row, column) = {radiance, radiance, radiance};
   }
   return sky;

@@ -42,7 +42,7 @@ Map sample_heights(Map heights) {
 }
 
 /// Each height and kLift of what the highest around it has above it, of all but `beside` blocks of the
-/// level's margin, at least 1.
+/// level's margin, at least 1. Where nothing is, nothing is lifted.
 Map lifted_heights(const FieldPyramid::Level& level, int beside) {
   const int margin = level.margin - beside;
   Map lifted(level.width + 2 * margin, level.height + 2 * margin);
@@ -55,7 +55,8 @@ Map lifted_heights(const FieldPyramid::Level& level, int beside) {
       for (const std::ptrdiff_t line : {-stride, std::ptrdiff_t{0}, stride}) {
         for (const std::ptrdiff_t aside : {-1, 0, 1}) peak = std::max(peak, here[column + line + aside]);
       }
-      out[column] = here[column] + WalkTile::kLift * (peak - here[column]);
+      const float lift = WalkTile::kLift * (peak - here[column]);
+      out[column] = here[column] == kNoHeight ? kNoHeight : here[column] + lift;
     }
   });
   return lifted;
