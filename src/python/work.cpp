@@ -25,7 +25,7 @@ namespace {
 template <class Call>
 auto with_names_of_arguments(Call&& work) {
   constexpr std::array<std::pair<const char*, const char*>, 2> kNames{
-      {{"max_distance", "reach"}, {"window_side", "window"}}};
+      {{"max_distance", "reach"}, {"out_of_core", "window"}}};
   try {
     return work();
   } catch (const UsageError& error) {

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <csignal>
 #include <filesystem>
+#include <fstream>
 
 #include "base/hash.h"
 #include "cli/command.h"
@@ -114,6 +115,23 @@ TEST_CASE("a window has the whole map's sky, and its light within the error", "[
   CHECK_FALSE(fs::exists(folder / "part/.map.windows"));
 }
 
+TEST_CASE("a window tells how many of its own samples are missing", "[out-of-core]") {
+  const ScratchFolder folder;
+  std::ofstream grid(folder / "map.asc");
+  grid << "ncols 192\nnrows 192\nxllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value -9999\n";
+  for (int row = 0; row < 192; ++row) {
+    for (int column = 0; column < 192; ++column) grid << (row < 70 ? -9999 : (row * column) % 7) << ' ';
+    grid << '\n';
+  }
+  grid.close();
+  const auto missing = [&](const std::string& window) {
+    REQUIRE(run_command("bake map.asc -o part --maps ao --quiet --window " + window, folder).exit_code == 0);
+    return read_sidecar(folder / "part")["map"]["missing"].get<int>();
+  };
+  CHECK(missing("0,64,128,128") == 6 * 128);
+  CHECK(missing("64,128,64,64") == 0);
+}
+
 TEST_CASE("what windows cannot do is said in one line, and nothing is written", "[out-of-core]") {
   const ScratchFolder folder;
   REQUIRE(run_command("synth fbm -o map.tif --size 128", folder).exit_code == 0);
@@ -126,7 +144,7 @@ TEST_CASE("what windows cannot do is said in one line, and nothing is written", 
     CHECK(std::count(result.error.begin(), result.error.end(), '\n') == 1);
     CHECK_FALSE(fs::exists(folder / "out"));
   };
-  refused("map.tif --out-of-core 100", "multiple of 64", 2);
+  refused("map.tif --out-of-core 100", "--out-of-core 100: must be a multiple of 64", 2);
   refused("map.tif --out-of-core 64 --maps ao-n", "ao-n", 2);
   refused("map.tif --out-of-core 64 --maps openness-negative", "openness-negative", 2);
   refused("map.tif --out-of-core 64 --maps multibounce --albedo map.tif", "albedo", 2);

@@ -104,6 +104,18 @@ FillRows rows_inside(const BakedTexture& texture, const MapRect& window, const W
   };
 }
 
+std::uint64_t missing_inside(const Surface& surface, const MapRect& window) {
+  const WindowPlace place = place_in_map(surface);
+  std::uint64_t missing = 0;
+  for (int i = 0; i < window.rows; ++i) {
+    const float* row =
+        &surface.map.height(window.first_row - place.first_row + i, window.first_column - place.first_column);
+    missing += static_cast<std::uint64_t>(
+        std::count_if(row, row + window.columns, [](float height) { return std::isnan(height); }));
+  }
+  return missing;
+}
+
 void check_window(const MapRect& window, const WorkFacts& facts) {
   const bool inside = window.rows > 0 && window.columns > 0 && window.first_row >= 0 &&
                       window.first_column >= 0 && window.rows <= facts.grid.map_height - window.first_row &&
@@ -126,7 +138,7 @@ BakeOutcome write_window_textures(const Work& work, const Material& material, co
       .material = material,
       .header = header,
       .relief = double{facts.highest} - double{facts.lowest},
-      .missing = count_missing(surface.map),
+      .missing = missing_inside(surface, window),
       .sha256 = facts.sha256,
       .place = facts.place ? std::optional(crop_place(*facts.place, window.first_row, window.first_column))
                            : std::nullopt,

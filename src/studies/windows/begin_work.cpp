@@ -181,7 +181,7 @@ void make_folders(const Work& work) {
 
 void check_side(int side) {
   if (side % kTileSide != 0 || side < 0)
-    throw UsageError("window_side", std::to_string(side),
+    throw UsageError("out_of_core", std::to_string(side),
                      "must be a multiple of " + std::to_string(kTileSide));
 }
 

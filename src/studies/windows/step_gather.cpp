@@ -149,6 +149,38 @@ std::vector<std::vector<std::size_t>> groups_of(const Work& work) {
   return groups;
 }
 
+/// Gathers what the window's surface sees of the light of these channels, and steps their fields.
+std::vector<ChangeSum> gather_channels(const Work& work, const Surface& surface, const StepGround& ground,
+                                       const std::vector<std::size_t>& channels,
+                                       std::vector<GatherField>& fields) {
+  const int k = work.state.gather;
+  std::vector<FieldPyramid> pyramids;
+  std::vector<const FieldPyramid*> read;
+  std::vector<GatherField*> stepped;
+  for (const std::size_t c : channels) {
+    const CoarseField coarse =
+        complete_field(work.state.facts.first_coarse, read_whole(light_folder(work), static_cast<int>(c)));
+    fill_window_field(surface, Radiosity(work, c), coarse,
+                      pyramids.emplace_back(ground.gather.make_pyramid()));
+    stepped.push_back(&fields[c]);
+  }
+  for (const FieldPyramid& pyramid : pyramids) read.push_back(&pyramid);
+  const GatherTurn turn{.azimuths = azimuths_of_gather(fields[channels[0]].course, k),
+                        .turn = spread_turn(k + 1)};
+  return take_step(ground, turn, read, stepped, k < kTellingGathers);
+}
+
+void write_fields(const Work& work, int window, const std::vector<GatherField>& fields,
+                  const std::vector<ChangeSum>& changes) {
+  nlohmann::ordered_json told = nlohmann::ordered_json::array();
+  for (const ChangeSum& change : changes) told.push_back(to_json(change));
+  replace_json(change_file(work, window), told);
+  std::vector<const Map*> written;
+  for (const GatherField& field : fields)
+    written.insert(written.end(), {&field.irradiance, &field.before, &field.weighted, &field.weights});
+  write_window(field_folder(work, work.state.gather + 1), window, written);
+}
+
 }  // namespace
 
 void begin_courses(Work& work) {
@@ -190,7 +222,6 @@ void gather_window(Work& work, int window) {
   const SkyClasses classes(work.state.class_sample);
   const Watch silent{.tell = {}, .stopped = work.task.options.watch.stopped};
   const StepGround ground{gather, sky, classes, silent};
-  const int k = work.state.gather;
   std::vector<LightSystem> systems;
   std::vector<GatherField> fields;
   for (std::size_t c = 0; c < work.state.courses.size(); ++c) systems.push_back(system_of(work, c));
@@ -198,28 +229,10 @@ void gather_window(Work& work, int window) {
     fields.push_back(read_field(work, window, c, systems[c], sky));
   std::vector<ChangeSum> changes(fields.size());
   for (const std::vector<std::size_t>& channels : groups_of(work)) {
-    std::vector<FieldPyramid> pyramids;
-    std::vector<const FieldPyramid*> read;
-    std::vector<GatherField*> stepped;
-    for (const std::size_t c : channels) {
-      const CoarseField coarse =
-          complete_field(work.state.facts.first_coarse, read_whole(light_folder(work), static_cast<int>(c)));
-      fill_window_field(surface, Radiosity(work, c), coarse, pyramids.emplace_back(gather.make_pyramid()));
-      stepped.push_back(&fields[c]);
-    }
-    for (const FieldPyramid& pyramid : pyramids) read.push_back(&pyramid);
-    const GatherTurn turn{.azimuths = azimuths_of_gather(fields[channels[0]].course, k),
-                          .turn = spread_turn(k + 1)};
-    const std::vector<ChangeSum> found = take_step(ground, turn, read, stepped, k < kTellingGathers);
+    const std::vector<ChangeSum> found = gather_channels(work, surface, ground, channels, fields);
     for (std::size_t i = 0; i < found.size(); ++i) changes[channels[i]] = found[i];
   }
-  nlohmann::ordered_json told = nlohmann::ordered_json::array();
-  for (const ChangeSum& change : changes) told.push_back(to_json(change));
-  replace_json(change_file(work, window), told);
-  std::vector<const Map*> written;
-  for (const GatherField& field : fields)
-    written.insert(written.end(), {&field.irradiance, &field.before, &field.weighted, &field.weights});
-  write_window(field_folder(work, k + 1), window, written);
+  write_fields(work, window, fields, changes);
 }
 
 ChangeSum change_of_gather(const Work& work, std::size_t channel) {
