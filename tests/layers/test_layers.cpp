@@ -105,6 +105,9 @@ const std::map<std::string, Names> kUsers = {
 
 constexpr const char* kPublicFolder = "heightlight/";
 
+/// What each folder of src/ says of itself.
+constexpr const char* kFolderText = "README.md";
+
 /// A source's name relative to the folder that holds its layer.
 std::string strip_group(const std::string& name) {
   for (const std::string& group : kGroups) {
@@ -172,6 +175,29 @@ std::string read_text(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
+/// The layers that a README names after "May be included by:", where it ends.
+Names users_told(const std::string& text) {
+  const std::string begin = "May be included by:";
+  Names users;
+  std::size_t at = text.find(begin);
+  while (at != std::string::npos && (at = text.find('`', at)) != std::string::npos) {
+    const std::size_t end = text.find('`', at + 1);
+    if (end == std::string::npos) break;
+    users.insert(text.substr(at + 1, end - at - 1));
+    at = end + 1;
+  }
+  return users;
+}
+
+/// The layers that may include one.
+Names users_of(const std::string& layer) {
+  Names users;
+  for (const auto& [user, lower] : kMayInclude) {
+    if (lower.contains(layer)) users.insert(user);
+  }
+  return users;
+}
+
 }  // namespace
 
 TEST_CASE("layers") {
@@ -179,7 +205,7 @@ TEST_CASE("layers") {
   std::size_t sources = 0;
   for (const char* folder : {"src", "include"}) {
     for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder)) {
-      if (!entry.is_regular_file()) continue;
+      if (!entry.is_regular_file() || entry.path().filename() == kFolderText) continue;
       ++sources;
       std::string name = strip_group(entry.path().lexically_relative(root / folder).generic_string());
       if (name.ends_with(".in")) name.resize(name.size() - 3);
@@ -226,6 +252,26 @@ TEST_CASE("layers: faults are found") {
   CHECK(find_faults("extras/a.cpp", "").size() == 1);
   CHECK(find_faults("main.cpp", "").size() == 1);
   CHECK(find_faults("heightlight/unlisted.h", "").size() == 1);
+}
+
+TEST_CASE("layers: each folder has a README of 5 to 15 lines that tells its entry and who may include it") {
+  const std::filesystem::path sources = std::filesystem::path(HEIGHTLIGHT_SOURCE_DIR) / "src";
+  Names told;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(sources)) {
+    if (!entry.is_directory()) continue;
+    const std::string folder = entry.path().lexically_relative(sources).generic_string();
+    INFO(folder);
+    const std::string text = read_text(entry.path() / kFolderText);
+    const auto lines = std::count(text.begin(), text.end(), '\n');
+    CHECK(lines >= 5);
+    CHECK(lines <= 15);
+    CHECK(text.find("\nEntry: ") != std::string::npos);
+    const std::string layer = strip_group(folder);
+    if (!kMayInclude.contains(layer)) continue;  // core and studies, which hold layers
+    told.insert(layer);
+    CHECK(users_told(text) == users_of(layer));
+  }
+  CHECK(told.size() == kMayInclude.size());
 }
 
 TEST_CASE("layers: the constants of closed forms stand in forms.h alone") {
