@@ -62,7 +62,10 @@ std::vector<std::string> channel_names(const BakedTexture& texture) {
   if (count <= 4) return {kColour.begin(), kColour.begin() + static_cast<std::ptrdiff_t>(count)};
   std::vector<std::string> names;
   const std::size_t digits = count <= 100 ? 100 : 1000;
-  for (std::size_t i = 0; i < count; ++i) names.push_back("c" + std::to_string(digits + i).substr(1));
+  for (std::size_t i = 0; i < count; ++i) {
+    names.push_back(std::to_string(digits + i));
+    names.back().front() = 'c';  // in place: g++ 12 warns falsely of "c" + a string that ends here
+  }
   return names;
 }
 

@@ -258,8 +258,10 @@ Work open_work(WindowedTask task, int side, const BeginWork& begin) {
 
 std::string stage_of(const Work& work) {
   const bool is_of_gather = work.state.step == WorkStep::light || work.state.step == WorkStep::gather;
-  return std::string(name_of(work.state.step)) +
-         (is_of_gather ? " " + std::to_string(work.state.gather) : "");
+  std::string stage(name_of(work.state.step));
+  // Piece by piece: g++ 12 warns falsely of " " + a string that ends here.
+  if (is_of_gather) stage.append(" ").append(std::to_string(work.state.gather));
+  return stage;
 }
 
 bool is_done(const Work& work, int part) {
