@@ -4,11 +4,11 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <limits>
 #include <optional>
 #include <system_error>
-#include <type_traits>
 
+#include "base/srgb.h"
+#include "files/decoded_channel.h"
 #include "files/image_file.h"
 #include "files/image_read.h"
 #include "files/input_file.h"
@@ -16,11 +16,6 @@
 
 namespace heightlight {
 namespace {
-
-/// IEC 61966-2-1, encoded and result in [0, 1].
-double srgb_to_linear(double encoded) {
-  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
-}
 
 /// "#b5533c", as pictures have it: linear R, G, B; nothing where the text is no such colour.
 std::optional<std::vector<double>> parse_picture_colour(const std::string& text) {
@@ -58,26 +53,6 @@ std::vector<double> check_constants(const std::string& text, std::vector<double>
   return values;
 }
 
-/// One channel as reflectance.
-TexelVector decode(const StoredImage& image, std::size_t channel) {
-  const std::size_t stride = image.channels.size();
-  const bool dark = image.tiff && image.tiff->white_is_zero;  // larger numbers are darker
-  return std::visit(
-      [&](const auto& samples) {
-        using Sample = typename std::decay_t<decltype(samples)>::value_type;
-        constexpr double kWhite = static_cast<double>(std::numeric_limits<Sample>::max());
-        TexelVector values(samples.size() / stride);
-        for (std::size_t i = 0; i < values.size(); ++i) {
-          const double stored = static_cast<double>(samples[i * stride + channel]);
-          values[i] = std::is_integral_v<Sample>
-                          ? srgb_to_linear(dark ? 1 - stored / kWhite : stored / kWhite)
-                          : stored;
-        }
-        return values;
-      },
-      image.samples);
-}
-
 ReadAlbedo read_albedo_file(const std::string& path, const Heightmap& map, std::uint64_t memory_limit) {
   const InputFile file(path);
   const FileFormat format = recognise_format(file);
@@ -93,7 +68,7 @@ ReadAlbedo read_albedo_file(const std::string& path, const Heightmap& map, std::
   Albedo albedo;
   const std::size_t channels = image.channels.size() >= 3 ? 3 : 1;  // an alpha channel follows one or three
   for (std::size_t channel = 0; channel < channels; ++channel) {
-    albedo.varying.push_back(decode(image, channel));
+    albedo.varying.push_back(decode_channel<double>(image, channel, image.is_integer));
     TexelVector& values = albedo.varying.back();
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (std::isnan(map.height.values[i])) values[i] = 0;  // where nothing is, it may be missing, too

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/srgb.h"
 #include "base/texel_algebra.h"
 
 namespace heightlight {
@@ -51,9 +52,8 @@ Map shrink(const Map& map) {
 }  // namespace
 
 std::uint8_t encode_srgb(float linear) {
-  const float x = std::clamp(linear, 0.0F, 1.0F);
-  const float encoded = x <= 0.0031308F ? 12.92F * x : 1.055F * std::pow(x, 1 / 2.4F) - 0.055F;
-  return static_cast<std::uint8_t>(std::lround(255 * encoded));
+  const auto share = static_cast<double>(std::clamp(linear, 0.0F, 1.0F));
+  return static_cast<std::uint8_t>(std::lround(255 * linear_to_srgb(share)));
 }
 
 Image<Rgb8> colour_picture(const std::vector<Map>& channels) {
