@@ -1,8 +1,10 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstdio>
+#include <map>
 #include <memory>
 
 #include "bake/bake_memory.h"
@@ -13,6 +15,8 @@
 #include "cli/map_options.h"
 #include "cli/memory_promise.h"
 #include "cli/name_errors.h"
+#include "cli/pack_options.h"
+#include "cli/preset.h"
 #include "cli/reach_options.h"
 #include "cli/tell.h"
 #include "cli/terminal_watch.h"
@@ -20,6 +24,7 @@
 #include "cli/warnings.h"
 #include "files/file_format.h"
 #include "files/image_file.h"
+#include "files/input_file.h"
 #include "files/printable.h"
 #include "files/staged_output.h"
 #include "heightlight/error.h"
@@ -34,18 +39,39 @@ namespace {
 InputGuard guard_inputs(const BakeCommand& command, const BakeInputs& listed) {
   std::vector<std::filesystem::path> files = listed.left_out;
   files.emplace_back(command.albedo);
+  files.push_back(command.pack.preset_file);
   for (const std::filesystem::path& path : light_files(command.light)) files.push_back(path);
   for (const BakeInput& input : listed.inputs) {
     files.push_back(input.path);
     files.push_back(std::filesystem::path(input.path).replace_extension(".prj"));
+    for (const OwnChannel& own : own_channels_for(command.options, input.path)) files.push_back(own.path);
   }
   return files;
 }
 
-/// Before anything is baked: all can be, and no map's files replace any map.
+/// Files that one map's baking writes, and no other's. Throws UsageError where a map before has such a file.
+void take_names(const BakeInput& input, const BakeOptions& options,
+                std::map<std::string, std::filesystem::path>& owners) {
+  check_file_names(input.name, options);
+  const std::vector<std::string> shared = shared_files(options);
+  for (const std::string& name : baked_files(input.name, options)) {
+    if (std::find(shared.begin(), shared.end(), name) != shared.end()) continue;
+    const auto [owner, is_new] = owners.emplace(name, input.path);
+    if (!is_new)
+      throw UsageError("name", options.name,
+                       "files of " + owner->second.string() + " and " + input.path.string() +
+                           " would both be called " + name);
+  }
+}
+
+/// Before anything is baked: all can be, files of one's own are there, and no map's files replace any input,
+/// nor another map's.
 void check_batch(const BakeCommand& command, const BakeInputs& listed, const InputGuard& guard) {
+  std::map<std::string, std::filesystem::path> owners;
   for (const BakeInput& input : listed.inputs) {
     BakeOptions options = options_for(command, input.path);
+    take_names(input, options, owners);
+    for (const OwnChannel& own : options.own) InputFile{own.path};
     for (const std::string& name : baked_files(input.name, options)) guard.check(command.folder / name);
     options.albedo.constant.resize(3);  // how many channels it has, a file may have to tell
     check_bake_options(options);
@@ -79,6 +105,7 @@ BakeOutcome bake_within(const BakeCommand& command, const BakeInput& input, cons
                         .rmse = light.rmse};
     };
   }
+  read_own_channels(options.own, loaded.map, command.run.memory);
   options.surface = surface_of(command, options, loaded.facts.sha256);
   options.request = request_of(command, options, loaded.facts.sha256, albedo.sha256);
   const BakeTarget target{
@@ -241,20 +268,8 @@ void bake(BakeCommand& command) {
 
 void add_texture_options(CLI::App& app, BakeCommand& command) {
   BakeOptions& options = command.options;
-  app.add_option(
-         "--format", command.format,
-         "png (default of materials), exr, tif (default of terrain: a GeoTIFF at the same place), or asc")
-      ->check(CLI::IsMember({"png", "exr", "tif", "asc"}));
-  app.add_option("--depth", command.depth, "8, 16 (default), half or float (default of EXR and of terrain)")
-      ->check(CLI::IsMember({"8", "16", "half", "float"}));
+  add_pack_options(app, command.pack);
   app.add_flag("--dither", options.dither, "blue noise instead of rounding, for --depth 8");
-  app.add_option_function<std::string>(
-         "--normal-y", [&options](const std::string& text) { options.y_down = text == "directx"; },
-         "opengl: y up the picture (default); directx: down. Of all maps with directions")
-      ->check(CLI::IsMember({"opengl", "directx"}));
-  app.add_option("--pack", command.packed,
-                 "one more file, NAME_packed, with channels of several maps: R=ao,G=height,B=normal.z …")
-      ->type_name("R=MAP,…");
 }
 
 void add_map_content_options(CLI::App& app, BakeCommand& command) {
@@ -348,14 +363,15 @@ void add_bake_command(CLI::App& app) {
                    "of folders, bake the files with such names (*_height.png), whatever they are called")
       ->type_name("GLOB");
   add_run_options(*command, options->run);
-  command->footer(describe_maps() +
+  command->footer(describe_maps() + describe_presets() +
                   "Each goes into NAME_map.png; NAME_bake.json says what they hold and what they err by.\n"
                   "Examples:\n"
                   "  heightlight bake brick.png -o maps --relief 0.05\n"
                   "  heightlight bake rock.exr -o maps --maps ao,bent-normal,multibounce --albedo '#a0522d'\n"
                   "  heightlight bake heights/ -o maps --maps ao --max-distance 5% --falloff linear "
                   "--skip-existing\n"
-                  "  heightlight bake brick.png -o maps --pack R=ao,G=height --depth 8 --normal-y directx");
+                  "  heightlight bake brick.png -o maps --pack R=ao,G=height --depth 8 --normal-y directx\n"
+                  "  heightlight bake rock.png -o maps --preset unreal --input roughness=rock_rough.png");
   command->callback([options] { bake(*options); });
 }
 

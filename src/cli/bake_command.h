@@ -9,6 +9,7 @@
 #include "cli/bake_inputs.h"
 #include "cli/light_options.h"
 #include "cli/map_options.h"
+#include "cli/pack_options.h"
 
 namespace heightlight {
 
@@ -20,15 +21,13 @@ struct BakeCommand {
   std::filesystem::path folder;
   BakeOptions options;
   std::string maps;
-  std::string packed;
+  PackOptions pack;
   std::string albedo = "0.5";
   LightOptions light;              ///< of multibounce and direct
   std::string roughness = "0.13";  ///< of specular-occlusion
   std::string view = "0,90";
   std::string max_distance;
   std::string falloff = "none";
-  std::string format;  ///< empty: GeoTIFF of terrain, PNG of materials
-  std::string depth;
   bool skip_existing = false;
   std::optional<int> windows = {};  ///< bake window by window, of so many texels a side; 0: as memory has it
   std::string pattern;

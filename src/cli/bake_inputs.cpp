@@ -8,6 +8,7 @@
 #include <set>
 #include <system_error>
 
+#include "bake/file_name.h"
 #include "files/file_record.h"
 #include "files/input_file.h"
 #include "heightlight/error.h"
@@ -26,23 +27,8 @@ bool has_heightmap_extension(const fs::path& path) {
   return kExtensions.contains(extension);
 }
 
-/// Words of a name: parted by what is no letter or digit, and where a capital follows a small letter.
-std::vector<std::string> words_of(const std::string& name) {
-  std::vector<std::string> words(1);
-  bool after_small = false;
-  for (const unsigned char c : name) {
-    if (std::isalnum(c) == 0 || (std::isupper(c) != 0 && after_small)) words.emplace_back();
-    if (std::isalnum(c) != 0) words.back() += static_cast<char>(std::tolower(c));
-    after_small = std::islower(c) != 0;
-  }
-  return words;
-}
-
 /// As material libraries and bakers name what belongs to a material beside its heights.
 bool names_other_map(const std::string& name) {
-  static const std::set<std::string> kHeights{"height",       "heights", "heightmap", "disp",
-                                              "displacement", "bump",    "depth",     "elevation",
-                                              "dem",          "dsm",     "dtm",       "terrain"};
   static const std::set<std::string> kOthers{
       "color",     "colour",     "basecolor",   "albedo",     "diffuse",   "diff",     "normal",
       "normals",   "nor",        "nrm",         "ao",         "occlusion", "rough",    "roughness",
@@ -51,7 +37,7 @@ bool names_other_map(const std::string& name) {
       "thumbnail", "render",     "multibounce", "packed",     "curvature", "cavity"};
   bool other = false;
   for (const std::string& word : words_of(name)) {
-    if (kHeights.contains(word)) return false;
+    if (is_word_for_heights(word)) return false;
     other = other || kOthers.contains(word);
   }
   return other;

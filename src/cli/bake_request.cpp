@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <system_error>
@@ -19,7 +21,7 @@ std::string request_of(const BakeCommand& command, const BakeOptions& options, c
                                     {"map", map_sha256},
                                     {"load", describe_load_options(command.load)},
                                     {"maps", command.maps},
-                                    {"pack", command.packed},
+                                    {"pack", fmt::format("{}", fmt::join(command.pack.packs, " "))},
                                     {"albedo", albedo_sha256.empty() ? command.albedo : albedo_sha256},
                                     {"max_distance", command.max_distance},
                                     {"falloff", command.falloff},
@@ -37,6 +39,7 @@ std::string request_of(const BakeCommand& command, const BakeOptions& options, c
   if (options.below == BelowHorizontal::ground) request["below_horizontal"] = "ground";
   if (is_wanted(options, MaterialMap::specular_occlusion))
     request["gloss"] = command.roughness + ' ' + command.view;
+  if (const std::string pack = pack_key(command.pack, options); !pack.empty()) request["packing"] = pack;
   if (options.azimuth_convention)
     request["azimuth_convention"] = static_cast<int>(*options.azimuth_convention);
   if (!options.projection.empty()) request["projection"] = options.projection;
@@ -54,7 +57,7 @@ std::string surface_of(const BakeCommand& command, const BakeOptions& options,
 }
 
 bool is_baked(const BakeCommand& command, const BakeInput& input) {
-  const BakeOptions options = options_for(command, input.path);
+  BakeOptions options = options_for(command, input.path);
   const std::vector<std::string> names = baked_files(input.name, options);
   const std::filesystem::path sidecar = command.folder / names.back();
   std::error_code ignored;
@@ -62,6 +65,7 @@ bool is_baked(const BakeCommand& command, const BakeInput& input) {
     return std::filesystem::is_regular_file(command.folder / name, ignored);
   });
   if (!all_there) return false;
+  find_checksums(options.own);
   const bool albedo_file = std::filesystem::is_regular_file(command.albedo, ignored);
   const std::string wanted =
       request_of(command, options, sha256_of_file(input.path),

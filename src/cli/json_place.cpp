@@ -18,8 +18,7 @@ Error JsonPlace::error(const std::string& fault) const {
 }
 
 void JsonPlace::check_keys(const std::set<std::string>& known) const {
-  if (!value_.is_object()) throw error("must be an object, { … }");
-  for (const auto& [key, ignored] : value_.items()) {
+  for (const std::string& key : keys()) {
     if (known.contains(key)) continue;
     std::string fault = "there is no \"";
     fault.append(key).append("\" here; known are ");
@@ -32,6 +31,13 @@ std::optional<JsonPlace> JsonPlace::find(const std::string& key) const {
   const auto found = value_.find(key);
   if (found == value_.end()) return std::nullopt;
   return JsonPlace(*found, file_, pointer_ + "/" + key);
+}
+
+std::vector<std::string> JsonPlace::keys() const {
+  if (!value_.is_object()) throw error("must be an object, { … }");
+  std::vector<std::string> keys;
+  for (const auto& [key, ignored] : value_.items()) keys.push_back(key);
+  return keys;
 }
 
 std::vector<JsonPlace> JsonPlace::items() const {

@@ -26,6 +26,8 @@ class JsonPlace {
   void check_keys(const std::set<std::string>& known) const;
   /// What an object holds under a key, if anything.
   std::optional<JsonPlace> find(const std::string& key) const;
+  /// The keys of an object.
+  std::vector<std::string> keys() const;
   /// The members of a list, which must not be empty.
   std::vector<JsonPlace> items() const;
 

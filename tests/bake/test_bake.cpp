@@ -36,7 +36,8 @@ TEST_CASE("bake writes the files that it names, and nothing else", "[bake]") {
   const ScratchFolder folder;
   BakeOptions options;
   options.maps = GENERATE(std::vector<MaterialMap>{MaterialMap::normal}, all_maps());
-  options.packed = {{MaterialMap::ao, 0, 0}, {std::nullopt, 0, 0.5}, {MaterialMap::normal, 1, 0}};
+  options.packed = {
+      {"packed", {{MaterialMap::ao, 0, 0}, {std::nullopt, 0, 0.5}, {MaterialMap::normal, 1, 0}}}};
   bake_map(make_synth_map("brick", 48, Boundary::tile, 0.1), options, folder.path());
   const std::vector<std::string> expected = baked_files("m", options);
   CHECK(names_in(folder.path()) == std::set<std::string>(expected.begin(), expected.end()));
@@ -342,7 +343,7 @@ TEST_CASE("options that contradict each other are refused before any work, and t
   bad[5].reach = Reach{0, Falloff::none};
   bad[6].error = 0;
   bad[7].horizon_azimuths = 0;
-  bad[8].packed = {{MaterialMap::ao, 1, 0}};
+  bad[8].packed = {{"packed", {{MaterialMap::ao, 1, 0}}}};
   for (const BakeOptions& options : bad) CHECK_THROWS_AS(check_bake_options(options), UsageError);
   const ScratchFolder folder;
   good.memory = 1000;

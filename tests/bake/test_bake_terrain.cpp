@@ -122,7 +122,7 @@ TEST_CASE("a light of one's own is baked beside its bounces, in its channels", "
       light.channels.emplace_back(surface.map.height.size(), brightness);
     return light;
   };
-  options.packed = {{MaterialMap::direct, 2, 0}};
+  options.packed = {{"packed", {{MaterialMap::direct, 2, 0}}}};
   bake_map(two_walls(Boundary::open), options, folder.path());
   const ReadTexture direct = read_by_oiio(folder / "m_direct.exr");
   const ReadTexture total = read_by_oiio(folder / "m_multibounce.exr");
@@ -132,7 +132,7 @@ TEST_CASE("a light of one's own is baked beside its bounces, in its channels", "
   CHECK(total.samples == direct.samples);  // black ground: identity
   CHECK(read_by_oiio(folder / "m_packed.exr").at(5, 7, 0) == 2);
   CHECK(read_sidecar(folder.path())["light"]["of"] == "three lamps");
-  options.packed = {{MaterialMap::direct, 3, 0}};
+  options.packed = {{"packed", {{MaterialMap::direct, 3, 0}}}};
   CHECK_THROWS_AS(bake_map(two_walls(Boundary::open), options, folder.path()), UsageError);
   options.light_channels = 0;
   options.packed = {};

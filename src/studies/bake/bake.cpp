@@ -9,7 +9,9 @@
 
 #include "bake/baked_map.h"
 #include "bake/blue_noise.h"
+#include "bake/file_name.h"
 #include "bake/former_bake.h"
+#include "bake/packed_texture.h"
 #include "bake/sidecar.h"
 #include "bake/texel_encoding.h"
 #include "bake/texture_files.h"
@@ -153,13 +155,23 @@ void write_gloss_files(StagedFolder& folder, const BakeOptions& options) {
   write_specular_table(folder.file(kGlossFiles[2]), table);
 }
 
+/// The name of a file, or its beginning, of a map of that stem.
+std::string fill_name(const std::string& text, const std::string& stem, const std::string& map) {
+  return fill_placeholders("name", text, {{"stem", stem}, {"material", material_name(stem)}, {"map", map}});
+}
+
+std::vector<std::string> checked_files(const std::string& name, const BakeOptions& options) {
+  check_file_names(name, options);
+  return baked_files(name, options);
+}
+
 /// A folder that is ready to take a bake. All arguments must outlive it.
 class StagedBake {
  public:
   StagedBake(const BakeOptions& options, const BakeTarget& target)
       : options_(options),
         target_(target),
-        files_(baked_files(target.name, options)),
+        files_(checked_files(target.name, options)),
         former_(find_former_maps(target.folder / files_.back(), options.surface, files_)),
         folder_(target.folder, target.inputs, files_, former_record()) {}
 
@@ -196,8 +208,9 @@ class StagedBake {
 
  private:
   FormerRecord former_record() const {
-    const bool same_heights = !former_.empty();
-    return same_heights ? FormerRecord{} : FormerRecord{.file = files_.back(), .prefix = target_.name + "_"};
+    if (!former_.empty()) return {};  // of the same heights
+    const std::string before_map = options_.name.substr(0, options_.name.find("{map}"));
+    return {.file = files_.back(), .prefix = fill_name(before_map, target_.name, "")};
   }
 
   /// Compression takes longest, and the libraries compress a file on one thread.
@@ -254,22 +267,34 @@ std::optional<SkyDefinition> definition_of(MaterialMap map) {
 
 const char* to_string(MaterialMap map) { return material_maps()[static_cast<std::size_t>(map)].name; }
 
+std::vector<std::string> shared_files(const BakeOptions& options) {
+  std::vector<std::string> files;
+  if (is_wanted(options, MaterialMap::ao_n)) files = {"ao-n.glsl", "ao-n.hlsl"};
+  if (is_wanted(options, MaterialMap::specular_occlusion))
+    files.insert(files.end(), kGlossFiles.begin(), kGlossFiles.end());
+  return files;
+}
+
 std::vector<std::string> baked_files(const std::string& name, const BakeOptions& options) {
   std::vector<std::string> files = texture_suffixes(options);
-  const std::string stem = name + "_";
   const std::size_t textures = files.size();
-  for (std::string& file : files) file.insert(0, stem).append(extension_of(options.format));
+  for (std::string& file : files) file = fill_name(options.name, name, file) + extension_of(options.format);
   for (std::size_t i = 0; options.format == TextureFormat::asc && !options.projection.empty() && i < textures;
        ++i)
     files.push_back(std::filesystem::path(files[i]).replace_extension(".prj").string());
-  if (is_wanted(options, MaterialMap::ao_n)) {
-    files.push_back("ao-n.glsl");
-    files.push_back("ao-n.hlsl");
-  }
-  if (is_wanted(options, MaterialMap::specular_occlusion))
-    files.insert(files.end(), kGlossFiles.begin(), kGlossFiles.end());
+  for (std::string& file : shared_files(options)) files.push_back(std::move(file));
   files.push_back(name + "_bake.json");
   return files;
+}
+
+void check_file_names(const std::string& name, const BakeOptions& options) {
+  std::set<std::string> names;
+  for (const std::string& file : baked_files(name, options)) {
+    if (file.starts_with('.') || file.find('/') != std::string::npos)
+      throw UsageError("name", options.name, "files cannot be called " + file);
+    if (!names.insert(file).second)
+      throw UsageError("name", options.name, "two files would be called " + file);
+  }
 }
 
 void check_bake_options(const BakeOptions& options) {
@@ -317,12 +342,7 @@ void check_bake_options(const BakeOptions& options) {
     throw UsageError("below_horizontal", "ground", "is not for specular-occlusion, whose sky is all around");
   check_gloss(options.gloss);
   check_view(options.view);
-  for (const PackedChannel& channel : options.packed) {
-    if (!channel.map || channel.component < component_count(*channel.map, options)) continue;
-    throw UsageError(
-        "pack", "",
-        std::string(to_string(*channel.map)) + " has no component " + std::to_string(channel.component));
-  }
+  check_packs(options);
 }
 
 BakeOutcome bake_material(LoadedHeightmap loaded, const BakeOptions& options, const BakeTarget& target) {

@@ -63,11 +63,29 @@ enum class TextureFormat {
 };
 enum class TextureDepth { uint8, uint16, half, real };
 
-/// What goes into one channel of a packed texture: a component of a map, or a constant.
+/// A channel of a file of the user's own, of the map's size, which packs take.
+struct OwnChannel {
+  std::filesystem::path path = {};
+  std::string channel = {};  ///< its name, or its number from 0; empty: the only one, or grey
+  bool is_srgb = false;      ///< samples are decoded from sRGB; else they are linear as they stand
+  Map values = {};           ///< in [0, 1]; NaN where heights are missing at most
+  std::string sha256 = {};   ///< of the file as it was read
+};
+
+/// What goes into one channel of a packed texture: a component of a map, a channel of a file, or a constant.
 struct PackedChannel {
   std::optional<MaterialMap> map = {};
   int component = 0;
-  double constant = 0;  ///< where there is no map, in [0, 1]
+  double constant = 0;                  ///< where there is neither map nor file, in [0, 1]
+  std::optional<std::size_t> own = {};  ///< of BakeOptions::own
+  bool is_inverted = false;             ///< 1 less it; what runs from -1 to 1, with its sign changed
+};
+
+/// One more file.
+struct PackedTexture {
+  std::string name;                     ///< what BakeOptions::name calls its {map}
+  std::vector<PackedChannel> channels;  ///< one, three or four
+  bool is_srgb = false;                 ///< integers are encoded as sRGB, alpha excepted
 };
 
 /// Light that is no even sky's.
@@ -78,8 +96,10 @@ struct BakedLight {
 };
 
 struct BakeOptions {
-  std::vector<MaterialMap> maps;      ///< each in a file of its own
-  std::vector<PackedChannel> packed;  ///< one to four channels of one more file; none where empty
+  std::vector<MaterialMap> maps;  ///< each in a file of its own
+  std::vector<PackedTexture> packed;
+  std::vector<OwnChannel> own;        ///< channels of files that packs take
+  std::string name = "{stem}_{map}";  ///< of files, without extension; {material}, too (material_name)
   bool uniform_ao = false;            ///< α in place of A
   Albedo albedo{.constant = {0.5}};   ///< of multibounce
   std::optional<Reach> reach =
@@ -107,6 +127,9 @@ struct BakeOptions {
   std::string request = {};     ///< what was asked for, as the asker knows it again; stands in the sidecar
   std::string surface = {};     ///< likewise the heights alone: earlier maps of the same ones stay
 };
+
+/// Names of files that baking writes alike for every map: shaders, and the tables that they read.
+std::vector<std::string> shared_files(const BakeOptions& options);
 
 /// Names of all files that baking writes for a map of that name, the sidecar last.
 std::vector<std::string> baked_files(const std::string& name, const BakeOptions& options);
@@ -142,6 +165,9 @@ struct Material;
 /// The same of a material that was found (material.h), by the same options.
 BakeOutcome write_material(const Material& material, const HeightSource& source, const BakeOptions& options,
                            const BakeTarget& target);
+
+/// Throws UsageError where two of baked_files would have one name, or one would be no name of a file.
+void check_file_names(const std::string& name, const BakeOptions& options);
 
 /// Throws UsageError, naming the option, for what no map can be baked with.
 void check_bake_options(const BakeOptions& options);

@@ -28,7 +28,9 @@ std::uint64_t kept_bytes(const Wanted& wanted, std::size_t channels) {
 /// Textures are written at the same time, one a thread.
 std::uint64_t writing_bytes(int width, const BakeOptions& options) {
   const std::size_t textures = texture_suffixes(options).size();
-  std::uint64_t most_channels = options.packed.size();
+  std::uint64_t most_channels = 0;
+  for (const PackedTexture& pack : options.packed)
+    most_channels = std::max(most_channels, static_cast<std::uint64_t>(pack.channels.size()));
   for (const MaterialMap map : options.maps)
     most_channels = std::max(most_channels, static_cast<std::uint64_t>(component_count(map, options)));
   const auto writers = std::min(textures, static_cast<std::size_t>(thread_count()));
@@ -38,7 +40,8 @@ std::uint64_t writing_bytes(int width, const BakeOptions& options) {
 }  // namespace
 
 std::uint64_t bytes_beside_solution(int width, int height, const BakeOptions& options) {
-  return count_texels(width, height) * kVector * (options.light_channels + options.albedo.varying.size());
+  return count_texels(width, height) *
+         (kVector * (options.light_channels + options.albedo.varying.size()) + kMap * options.own.size());
 }
 
 std::uint64_t bake_bytes(int width, int height, const BakeOptions& options) {

@@ -8,6 +8,7 @@
 
 #include "bake/bent_cone.h"
 #include "bake/map_text.h"
+#include "bake/packed_texture.h"
 #include "base/digits.h"
 #include "base/texel_algebra.h"
 #include "heightlight/forms.h"
@@ -150,11 +151,6 @@ BakedChannel height(const Material& material) {
           }};
 }
 
-/// A value for every texel, of no map.
-BakedChannel constant(double value) {
-  return {"constant", "1", 0, 1, value, [value](std::size_t) { return static_cast<float>(value); }};
-}
-
 /// What files of a map hold which of its components: [first, last).
 std::vector<std::pair<int, int>> split(int components, TextureFormat format) {
   constexpr int kMostInPng = 4;
@@ -196,12 +192,16 @@ void add_textures(MaterialMap map, const Material& material, const BakeOptions& 
                         map_text(map, options),
                         {channels.begin() + parts[i].first, channels.begin() + parts[i].second}});
     if (options.format == TextureFormat::png && textures.back().channels.size() == 2) {
-      textures.back().channels.push_back(constant(0));
+      textures.back().channels.push_back(constant_channel(0));
     }
   }
 }
 
 }  // namespace
+
+BakedChannel constant_channel(double value) {
+  return {"constant", "1", 0, 1, value, [value](std::size_t) { return static_cast<float>(value); }};
+}
 
 int component_count(MaterialMap map, const BakeOptions& options) {
   switch (map) {
@@ -272,23 +272,14 @@ std::vector<BakedChannel> baked_channels(MaterialMap map, const Material& materi
 std::vector<BakedTexture> baked_textures(const Material& material, const BakeOptions& options) {
   std::vector<BakedTexture> textures;
   for (const MaterialMap map : options.maps) add_textures(map, material, options, textures);
-  if (options.packed.empty()) return textures;
-  BakedTexture packed{"packed", "channels of several maps", {}};
-  for (const PackedChannel& channel : options.packed) {
-    if (!channel.map) {
-      packed.channels.push_back(constant(channel.constant));
-      continue;
-    }
-    packed.channels.push_back(
-        baked_channels(*channel.map, material, options)[static_cast<std::size_t>(channel.component)]);
-    packed.channels.back().quantity.insert(0, std::string(to_string(*channel.map)) + ": ");
-  }
-  textures.push_back(std::move(packed));
+  for (const PackedTexture& pack : options.packed)
+    textures.push_back(packed_texture(pack, material, options));
   return textures;
 }
 
 std::size_t texture_channels(const BakeOptions& options) {
-  std::size_t channels = options.packed.size();
+  std::size_t channels = 0;
+  for (const PackedTexture& pack : options.packed) channels += pack.channels.size();
   for (const MaterialMap map : options.maps) {
     const auto components = static_cast<std::size_t>(component_count(map, options));
     const bool is_padded = options.format == TextureFormat::png && components == 2;  // by an empty one
@@ -302,7 +293,7 @@ std::vector<std::string> texture_suffixes(const BakeOptions& options) {
   for (const MaterialMap map : options.maps) {
     for (std::string& suffix : suffixes_of(map, options)) suffixes.push_back(std::move(suffix));
   }
-  if (!options.packed.empty()) suffixes.push_back("packed");
+  for (const PackedTexture& pack : options.packed) suffixes.push_back(pack.name);
   return suffixes;
 }
 

@@ -17,6 +17,7 @@ struct BakedChannel {
   double high = 1;       ///< and the one that they store as their largest level; values beyond are clipped
   double missing = 1;    ///< what stands for a missing sample in integer files
   std::function<float(std::size_t)> value;  ///< of a texel; NaN where the sample is missing
+  bool is_srgb = false;                     ///< integers hold the share between low and high sRGB encoded
 };
 
 /// One file.
@@ -29,6 +30,9 @@ struct BakedTexture {
 /// The components of a map; `material`, which they read, must outlive them. At least one.
 std::vector<BakedChannel> baked_channels(MaterialMap map, const Material& material,
                                          const BakeOptions& options);
+
+/// A value in [0, 1] for every texel, of no map.
+BakedChannel constant_channel(double value);
 
 /// Components that a map has, without finding it; under a light of one's own, as many as it may have.
 int component_count(MaterialMap map, const BakeOptions& options);

@@ -42,8 +42,10 @@ AzimuthConvention azimuth_convention(const BakeOptions& options, Boundary bounda
 
 bool is_wanted(const BakeOptions& options, MaterialMap map) {
   return std::find(options.maps.begin(), options.maps.end(), map) != options.maps.end() ||
-         std::any_of(options.packed.begin(), options.packed.end(),
-                     [map](const PackedChannel& channel) { return channel.map == map; });
+         std::any_of(options.packed.begin(), options.packed.end(), [map](const PackedTexture& pack) {
+           return std::any_of(pack.channels.begin(), pack.channels.end(),
+                              [map](const PackedChannel& channel) { return channel.map == map; });
+         });
 }
 
 Request material_request(const BakeOptions& options, AzimuthConvention convention) {

@@ -7,6 +7,7 @@
 #include "base/texel_algebra.h"
 #include "files/evidence_json.h"
 #include "files/output_file.h"
+#include "files/printable.h"
 #include "heightlight/version.h"
 
 namespace heightlight {
@@ -49,6 +50,7 @@ Json describe_channel(const BakedChannel& channel, TextureDepth depth) {
   json["value_of_level_0"] = channel.low;
   json["value_of_level_" + std::to_string(levels)] = channel.high;
   json["missing_samples"] = channel.missing;
+  if (channel.is_srgb) json["encoding"] = "sRGB, of the share between the two";
   return json;
 }
 
@@ -130,6 +132,17 @@ Json describe_albedo(const Albedo& albedo) {
   return {{"mean_of_map", means}};
 }
 
+/// Files that packs took channels of.
+Json describe_own(const std::vector<OwnChannel>& channels) {
+  Json list = Json::array();
+  for (const OwnChannel& own : channels)
+    list.push_back({{"path", printable(own.path)},
+                    {"sha256", own.sha256},
+                    {"channel", own.channel.empty() ? Json(nullptr) : Json(own.channel)},
+                    {"decoded_from", own.is_srgb ? "sRGB" : "linear"}});
+  return list;
+}
+
 }  // namespace
 
 void write_sidecar(const std::filesystem::path& path, const BakeOptions& options,
@@ -144,6 +157,7 @@ void write_sidecar(const std::filesystem::path& path, const BakeOptions& options
                              {.relief = facts.map.relief, .missing = facts.map.missing});
   json["files"] = describe_textures(options, textures, facts.files);
   for (const Json& entry : facts.former) json["files"].push_back(entry);
+  if (!options.own.empty()) json["packed_from"] = describe_own(options.own);
   json["conventions"] = describe_conventions(options, facts.map.header);
   json["reach"] = describe_reach(options);
   if (is_wanted(options, MaterialMap::multibounce)) {

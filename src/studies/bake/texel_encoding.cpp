@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bake/blue_noise.h"
+#include "base/srgb.h"
 
 namespace heightlight {
 namespace {
@@ -34,7 +35,8 @@ float encode_texel(const TexelEncoding& encoding, const BakedChannel& channel, f
   const int levels = largest_level(encoding.depth);
   if (levels == 0) return value;
   const double present = std::isnan(value) ? channel.missing : static_cast<double>(value);
-  const double share = std::clamp((present - channel.low) / (channel.high - channel.low), 0.0, 1.0);
+  const double linear = std::clamp((present - channel.low) / (channel.high - channel.low), 0.0, 1.0);
+  const double share = channel.is_srgb ? linear_to_srgb(linear) : linear;
   const bool is_zero = channel.low < 0 && std::fabs(present) < kZero;
   if (encoding.noise && !is_zero) {
     const auto up = static_cast<double>(threshold(*encoding.noise, row, column, channel_index));
