@@ -52,12 +52,13 @@ constexpr std::size_t kMostLevels = 65536;
 
 /// What a file turned out to hold, before and after it became a heightmap.
 struct SourceFacts {
-  std::string format;          ///< "png", "esri ascii grid", "openexr", …
-  std::string sample_type;     ///< "uint8", "int8", … "int32", "half", "float", "double", "text"
-  int bits = 0;                ///< per sample; 0 for text
-  bool is_integer = false;     ///< samples are whole numbers
-  bool is_stretched = false;   ///< they are levels without a unit, mapped to [0, relief]
-  bool white_is_zero = false;  ///< of a TIFF that says so: larger numbers are darker, and lower
+  std::string format;              ///< "png", "esri ascii grid", "openexr", …
+  std::string sample_type;         ///< "uint8", "int8", … "int32", "half", "float", "double", "text"
+  int bits = 0;                    ///< per sample; 0 for text
+  bool is_integer = false;         ///< samples are whole numbers
+  bool is_stretched = false;       ///< they are levels without a unit, mapped to [0, relief]
+  bool is_relief_guessed = false;  ///< to a relief that nobody gave: a tenth of the width
+  bool white_is_zero = false;      ///< of a TIFF that says so: larger numbers are darker, and lower
   int channels = 0;
   std::string channel;  ///< what was read: "Y", "R", "grey (R = G = B)"
   std::size_t levels =

@@ -69,9 +69,11 @@ void take_names(const BakeInput& input, const BakeOptions& options,
 void check_batch(const BakeCommand& command, const BakeInputs& listed, const InputGuard& guard) {
   std::map<std::string, std::filesystem::path> owners;
   for (const BakeInput& input : listed.inputs) {
-    BakeOptions options = options_for(command, input.path);
+    const BakeCommand own = command_for(command, input.path);
+    check_load_options(own.load);
+    BakeOptions options = options_for(own, input.path);
     take_names(input, options, owners);
-    for (const OwnChannel& own : options.own) InputFile{own.path};
+    for (const OwnChannel& channel : options.own) InputFile{channel.path};
     for (const std::string& name : baked_files(input.name, options)) guard.check(command.folder / name);
     options.albedo.constant.resize(3);  // how many channels it has, a file may have to tell
     check_bake_options(options);
@@ -93,6 +95,9 @@ BakeOutcome bake_within(const BakeCommand& command, const BakeInput& input, cons
     options.reach = Reach{.distance = parse_distance("max_distance", command.max_distance, width),
                           .falloff = falloff_named(command.falloff)};
   }
+  if (!command.detail_scale.empty())
+    options.detail_scale =
+        parse_distance("detail_scale", command.detail_scale, loaded.map.spacing.x * loaded.map.height.width);
   if (options.light_channels > 0) {
     options.find_light = [&](const Surface& surface) {
       DirectLight light = find_direct_light(command.light, surface,
@@ -233,12 +238,23 @@ void tell_left_out(const BakeInputs& listed) {
        "; left out, unless --pattern chooses it");
 }
 
+/// Names of the table that are no map's: typing errors, perhaps.
+void tell_unused_reliefs(const BakeCommand& command, const BakeInputs& listed) {
+  for (const NamedRelief& named : command.relief_table) {
+    const bool is_used = std::any_of(listed.inputs.begin(), listed.inputs.end(), [&](const BakeInput& input) {
+      return find_relief(command.relief_table, input.path) == &named;
+    });
+    if (!is_used) tell("warning: --reliefs: no map here is called " + printable(named.name));
+  }
+}
+
 void bake(BakeCommand& command) {
   apply_run_options(command.run);
   parse_bake_options(command);
   const BakeInputs listed = list_bake_inputs(command.inputs, command.pattern);
   const std::vector<BakeInput>& inputs = listed.inputs;
   tell_left_out(listed);
+  tell_unused_reliefs(command, listed);
   const InputGuard guard = guard_inputs(command, listed);
   check_batch(command, listed, guard);
   const bool only_one = inputs.size() == 1;
@@ -248,7 +264,7 @@ void bake(BakeCommand& command) {
     Progress progress("bake", static_cast<std::int64_t>(inputs.size()), watch);
     for (const BakeInput& input : inputs) {
       try {
-        bake_one(command, input, guard, only_one, tally);
+        bake_one(command_for(command, input.path), input, guard, only_one, tally);
       } catch (const Cancelled&) {
         throw;
       } catch (const std::exception& error) {
@@ -302,6 +318,21 @@ void add_map_content_options(CLI::App& app, BakeCommand& command) {
                  "of specular-occlusion: whence it is seen, in degrees clockwise from north, which is up the "
                  "map, and above the horizontal (0,90)")
       ->type_name("AZIMUTH,ELEVATION");
+  app.add_option("--normal-strength", options.normal_strength,
+                 "slopes of the normal map times this: 1, the heights' own, or what looks better (1)");
+  app.add_option("--detail-scale", command.detail_scale,
+                 "of curvature and cavity: standard deviation of the Gaussian mean of the heights, in world "
+                 "units or percent of the width (0.5%)")
+      ->type_name("D|P%");
+  app.add_option("--midlevel", options.midlevel,
+                 "of displacement: where in the relief it is none, from 0, the lowest place, to 1 (0.5)");
+  app.add_option_function<std::string>(
+         "--displacement-unit",
+         [&options](const std::string& text) {
+           options.displacement_unit = text == "cm" ? DisplacementUnit::centimetre : DisplacementUnit::metre;
+         },
+         "m: Blender, Godot, glTF, Unity (default); cm: Unreal. World units are taken as metres")
+      ->check(CLI::IsMember({"m", "cm"}));
   app.add_flag("--bent-length", options.bent_length, "keep the length of bent normals in alpha");
   app.add_option("--horizon-azimuths", options.horizon_azimuths, "azimuths of the horizon map, 1 to 360 (4)");
   app.add_option_function<std::string>(
@@ -337,6 +368,12 @@ void add_bake_command(CLI::App& app) {
   add_map_content_options(*command, *options);
   add_texture_options(*command, *options);
   add_load_options(*command, options->load);
+  command
+      ->add_option(
+          "--reliefs", options->reliefs,
+          "reliefs of maps by their names, in place of --relief: a file with lines of a name, a relief "
+          "and perhaps a width (brick,5cm,1m)")
+      ->type_name("FILE|NAME=H,…");
   command->add_option("--error", options->options.error,
                       "RMSE wanted of the sky view factor and of the total (0.002)");
   command->add_option("--azimuths", options->options.azimuths,

@@ -10,6 +10,7 @@
 #include "cli/light_options.h"
 #include "cli/map_options.h"
 #include "cli/pack_options.h"
+#include "cli/relief_table.h"
 
 namespace heightlight {
 
@@ -31,11 +32,17 @@ struct BakeCommand {
   bool skip_existing = false;
   std::optional<int> windows = {};  ///< bake window by window, of so many texels a side; 0: as memory has it
   std::string pattern;
-  std::string window;  ///< COLUMN,ROW,WIDTH,HEIGHT; empty: the whole map
+  std::string reliefs;                    ///< a file, or NAME=RELIEF,…
+  std::vector<NamedRelief> relief_table;  ///< what it says
+  std::string detail_scale;               ///< of curvature and cavity
+  std::string window;                     ///< COLUMN,ROW,WIDTH,HEIGHT; empty: the whole map
 };
 
 /// Reads the texts, all that does not depend on a map. Throws UsageError for what no map can be baked with.
 void parse_bake_options(BakeCommand& command);
+
+/// The command as it is for one map: with the relief that the table names for it.
+BakeCommand command_for(const BakeCommand& command, const std::filesystem::path& map);
 
 /// The options of one map's files, whose format may hang on what that map is.
 BakeOptions options_for(const BakeCommand& command, const std::filesystem::path& map);

@@ -55,9 +55,21 @@ void parse_bake_options(BakeCommand& command) {
   }
   if (!command.max_distance.empty())
     check_reach({.distance = parse_distance("max_distance", command.max_distance, 1)});
+  if (!command.detail_scale.empty())
+    options.detail_scale = parse_distance("detail_scale", command.detail_scale, 1);
+  if (!command.reliefs.empty()) command.relief_table = read_reliefs(command.reliefs);
   check_load_options(command.load);
   check_albedo(command.albedo);
   check_light_options(command.light);
+}
+
+BakeCommand command_for(const BakeCommand& command, const std::filesystem::path& map) {
+  BakeCommand own = command;
+  const NamedRelief* named = find_relief(command.relief_table, map);
+  if (!named) return own;
+  own.load.relief = named->relief;
+  if (named->width) own.load.width = named->width;
+  return own;
 }
 
 BakeOptions options_for(const BakeCommand& command, const std::filesystem::path& map) {

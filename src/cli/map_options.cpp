@@ -9,6 +9,7 @@
 #include "base/byte_size.h"
 #include "base/digits.h"
 #include "base/machine_share.h"
+#include "cli/length.h"
 #include "files/library_threads.h"
 #include "heightlight/error.h"
 
@@ -44,17 +45,38 @@ double parse_refraction(const std::string& text) {
   return *value;
 }
 
+constexpr const char* kSizeForms =
+    "write columns and rows of raw samples, such as 1024x512, or an extent with its unit, such as 1m";
+
 std::array<int, 2> parse_size(const std::string& text) {
   const std::size_t cross = text.find('x');
   const auto side = [&](const std::string& number) {
     int value = 0;
     const auto [stop, fault] = std::from_chars(number.data(), number.data() + number.size(), value);
     if (fault != std::errc() || stop != number.data() + number.size() || value < 1)
-      throw UsageError("size", text, "write columns and rows, such as 1024x512");
+      throw UsageError("size", text, kSizeForms);
     return value;
   };
-  if (cross == std::string::npos) throw UsageError("size", text, "write columns and rows, such as 1024x512");
+  if (cross == std::string::npos) throw UsageError("size", text, kSizeForms);
   return {side(text.substr(0, cross)), side(text.substr(cross + 1))};
+}
+
+double parse_height(const std::string& text) {
+  const std::optional<Length> length = read_length(text);
+  if (!length) throw UsageError("height", text, "write a length, such as 5cm");
+  return length->value;
+}
+
+/// Samples of raw files, or how wide the map is in the world. `spacing_is_given`: that is known already.
+void take_size(const std::string& text, bool spacing_is_given, LoadOptions& load) {
+  const std::optional<Length> extent = read_length(text);
+  if (!extent || !extent->has_unit) {
+    load.size = parse_size(text);
+    return;
+  }
+  if (spacing_is_given)
+    throw UsageError("size", text, "is an extent, which --width or --texel gives already");
+  load.width = extent->value;
 }
 
 /// What the process takes later, beside its work: code and libraries that are loaded as they are first
@@ -89,18 +111,26 @@ void add_map_options(CLI::App& command, MapOptions& options) {
 }
 
 void add_load_options(CLI::App& command, LoadOptions& load) {
-  command.add_option("--relief", load.relief, "peak-to-valley height in world units (images: width / 10)");
-  auto* width = command.add_option("--width", load.width, "extent of the columns in world units (1)");
+  auto* relief = command.add_option("--relief", load.relief,
+                                    "peak-to-valley height in world units (images: width / 10)");
   command
       .add_option_function<std::string>(
-          "--texel",
-          [&load](const std::string& text) {
-            load.degrees_in_metres = text == "auto";
-            if (!load.degrees_in_metres) load.texel = parse_spacing(text);
-          },
-          "spacing of samples in world units: S, or SXxSY; auto: metres, where the file tells it in degrees")
-      ->type_name("S|SXxSY|auto")
-      ->excludes(width);
+          "--height", [&load](const std::string& text) { load.relief = parse_height(text); },
+          "the same with its unit, such as 5cm; world units are metres then")
+      ->type_name("LENGTH")
+      ->excludes(relief);
+  auto* width = command.add_option("--width", load.width, "extent of the columns in world units (1)");
+  auto* texel = command
+                    .add_option_function<std::string>(
+                        "--texel",
+                        [&load](const std::string& text) {
+                          load.degrees_in_metres = text == "auto";
+                          if (!load.degrees_in_metres) load.texel = parse_spacing(text);
+                        },
+                        "spacing of samples in world units: S, or SXxSY; auto: metres, where the file tells "
+                        "it in degrees")
+                    ->type_name("S|SXxSY|auto")
+                    ->excludes(width);
   command
       .add_option_function<std::string>(
           "--boundary",
@@ -111,9 +141,12 @@ void add_load_options(CLI::App& command, LoadOptions& load) {
       ->check(CLI::IsMember({"tile", "open"}));
   command
       .add_option_function<std::string>(
-          "--size", [&load](const std::string& text) { load.size = parse_size(text); },
-          "columns and rows of raw samples: WxH")
-      ->type_name("WxH");
+          "--size",
+          [&load, width, texel](const std::string& text) {
+            take_size(text, width->count() > 0 || texel->count() > 0, load);
+          },
+          "columns and rows of raw samples: WxH; or the extent of the columns with its unit, such as 1m")
+      ->type_name("WxH|LENGTH");
   command.add_flag("--big-endian", load.big_endian, "raw samples have their highest byte first");
   command.add_option("--scale", load.scale, "height per stored value, world units: nothing is stretched");
   command.add_option("--offset", load.offset, "height of a stored 0, world units (0)");

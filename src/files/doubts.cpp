@@ -35,6 +35,12 @@ double median_slope_deg(const Heightmap& map) {
 /// "relief 0.1": a tenth of the width, as images of levels get it.
 std::string tenth_of(double width) { return "relief " + in_digits(width / 10, 3); }
 
+/// "relief 0.0084": at which the median slope, which is `slope_deg` at a relief of `tall`, is 30 degrees.
+std::string gentle_relief(double tall, double slope_deg) {
+  const double degree = std::numbers::pi / 180;
+  return "relief " + in_digits(tall * std::tan(30 * degree) / std::tan(slope_deg * degree), 2);
+}
+
 void doubt_relief(const Heightmap& map, const StoredHeights& stored, const LoadOptions& options,
                   std::vector<Warning>& warnings) {
   constexpr double kSteep = 60;
@@ -61,6 +67,12 @@ void doubt_relief(const Heightmap& map, const StoredHeights& stored, const LoadO
     warnings.push_back(
         {fmt::format("the relief is {:.3g} times the extent; is the spacing right?", tall / extent),
          "texel"});
+  } else if (slope > kSteep && stored.facts.is_relief_guessed) {
+    warnings.push_back(
+        {fmt::format("half of it is steeper than {:.0f} degrees, since nothing tells its relief, which was "
+                     "taken as a tenth of the width; give its own, or one at which that is 30 degrees",
+                     slope),
+         gentle_relief(tall, slope)});
   } else if (slope > kSteep) {
     warnings.push_back(
         {fmt::format("half of it is steeper than {:.0f} degrees; is the relief meant to be {:.3g} "

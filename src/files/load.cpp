@@ -169,6 +169,7 @@ LoadedHeightmap load_heightmap(const std::filesystem::path& path, const LoadOpti
   judge_place(stored);
   map.spacing = choose_spacing(file, options, stored);
   map.boundary = options.boundary.value_or(stored.place ? Boundary::open : Boundary::tile);
+  stored.facts.is_relief_guessed = stored.facts.is_stretched && !options.relief && !options.relief_share;
   const HeightRule rule = height_rule(file, options, stored, map);
   map.height = to_heights(stored.values, rule);
   loaded.warnings = find_suspects(stored);
@@ -222,6 +223,7 @@ LoadedHeightmap load_heightmap_by_rows(const std::filesystem::path& path, const 
   map.boundary = options.boundary.value_or(stored.place ? Boundary::open : Boundary::tile);
   map.height.width = stored.values.width;
   map.height.height = stored.values.height;
+  stored.facts.is_relief_guessed = stored.facts.is_stretched && !options.relief && !options.relief_share;
   const HeightRule rule = height_rule(file, options, stored, map);
   check_slopes(file, rule.relief(), map.spacing, {});
   map.base = base_of(rule, options, stored);

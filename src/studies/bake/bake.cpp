@@ -15,6 +15,7 @@
 #include "bake/sidecar.h"
 #include "bake/texel_encoding.h"
 #include "bake/texture_files.h"
+#include "base/digits.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "files/esri_grid_write.h"
@@ -241,6 +242,19 @@ std::vector<MaterialMapName> with_definitions(std::vector<MaterialMapName> maps)
   return maps;
 }
 
+/// Of maps that a height's surroundings make.
+void check_local_options(const BakeOptions& options) {
+  if (!(options.normal_strength > 0) || !std::isfinite(options.normal_strength))
+    throw UsageError("normal_strength", "", "must be a positive number");
+  if (!(options.midlevel >= 0 && options.midlevel <= 1))
+    throw UsageError("midlevel", in_digits(options.midlevel), "must be from 0 to 1");
+  if (!options.detail_scale) return;
+  if (!(*options.detail_scale >= 0) || !std::isfinite(*options.detail_scale))
+    throw UsageError("detail_scale", "", "must be a length, or 0: the samples as they are");
+  if (*options.detail_scale == 0 && is_wanted(options, MaterialMap::cavity))
+    throw UsageError("detail_scale", "0", "leaves a cavity no surroundings");
+}
+
 }  // namespace
 
 const std::vector<MaterialMapName>& material_maps() {
@@ -256,7 +270,12 @@ const std::vector<MaterialMapName>& material_maps() {
        {MaterialMap::sh, "sh", "order-2 spherical harmonics of cosine-weighted visibility"},
        {MaterialMap::height, "height", "heights from 0 to 1"},
        {MaterialMap::specular_occlusion, "specular-occlusion",
-        "what gloss sees of the sky, at --roughness from --view, with shaders and GTSO's table"}});
+        "what gloss sees of the sky, at --roughness from --view, with shaders and GTSO's table"},
+       {MaterialMap::curvature, "curvature", "mean curvature at --detail-scale: .5 flat, above it convex"},
+       {MaterialMap::convexity, "convexity", "what of it is convex: 0 where it is not"},
+       {MaterialMap::concavity, "concavity", "what of it is concave: 0 where it is not"},
+       {MaterialMap::cavity, "cavity", "height above its surroundings at --detail-scale: crevices are dark"},
+       {MaterialMap::displacement, "displacement", "height above --midlevel, in metres or centimetres"}});
   return kMaps;
 }
 
@@ -343,6 +362,7 @@ void check_bake_options(const BakeOptions& options) {
   check_gloss(options.gloss);
   check_view(options.view);
   check_packs(options);
+  check_local_options(options);
 }
 
 BakeOutcome bake_material(LoadedHeightmap loaded, const BakeOptions& options, const BakeTarget& target) {

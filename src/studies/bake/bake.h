@@ -31,6 +31,11 @@ enum class MaterialMap {
   sh,  ///< (1/π) ∫ V Y_lm cosθ dω, l ≤ 2: E/π under a sky is the dot product with its coefficients
   height,              ///< above the lowest sample, over the relief
   specular_occlusion,  ///< what a glossy lobe sees of the sky, of BakeOptions::gloss and view; 1 = open
+  curvature,           ///< mean curvature of the heights' Gaussian mean, 1/world length, convex positive
+  convexity,           ///< its positive part
+  concavity,           ///< its negative part, positive
+  cavity,              ///< height above the Gaussian mean, over its standard deviation: negative in crevices
+  displacement,        ///< height above BakeOptions::midlevel, in its unit
   // As sky_definitions() has them, in that order; those made of A share the pass of `ao`.
   svf_tilted,
   svf_horizontal,
@@ -72,6 +77,9 @@ struct OwnChannel {
   std::string sha256 = {};   ///< of the file as it was read
 };
 
+/// Units that engines displace surfaces in, of heights in metres.
+enum class DisplacementUnit { metre, centimetre };
+
 /// What goes into one channel of a packed texture: a component of a map, a channel of a file, or a constant.
 struct PackedChannel {
   std::optional<MaterialMap> map = {};
@@ -109,8 +117,14 @@ struct BakeOptions {
   int horizon_azimuths = 4;  ///< N: toward 2π k/N
   /// From where these count; default `north` where the map is open, else `math`, toward the y of the files
   std::optional<AzimuthConvention> azimuth_convention = {};
-  Gloss gloss = {};          ///< of specular_occlusion, which knows no reach
-  Vector3 view = {0, 0, 1};  ///< and toward the viewer; world axes, z > 0
+  Gloss gloss = {};            ///< of specular_occlusion, which knows no reach
+  Vector3 view = {0, 0, 1};    ///< and toward the viewer; world axes, z > 0
+  double normal_strength = 1;  ///< of `normal`: slopes are multiplied by it; 1 is the surface's own
+  /// Standard deviation of the Gaussian mean that curvature and cavity are of, in world units, ≥ 0 (of a
+  /// cavity > 0); default 0.5 % of the width
+  std::optional<double> detail_scale = {};
+  double midlevel = 0.5;  ///< of displacement: the height that is none, over the relief, in [0, 1]
+  DisplacementUnit displacement_unit = DisplacementUnit::metre;
   /// Of all maps of light; not with ao_n, specular_occlusion
   BelowHorizontal below = BelowHorizontal::sky;
   TextureFormat format = TextureFormat::png;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bake/baked_map.h"
+#include "bake/local_maps.h"
 #include "bake/material.h"
 #include "base/parallel.h"
 #include "files/image_file.h"
@@ -41,7 +42,8 @@ std::uint64_t writing_bytes(int width, const BakeOptions& options) {
 
 std::uint64_t bytes_beside_solution(int width, int height, const BakeOptions& options) {
   return count_texels(width, height) *
-         (kVector * (options.light_channels + options.albedo.varying.size()) + kMap * options.own.size());
+         (kVector * (options.light_channels + options.albedo.varying.size()) + kMap * options.own.size() +
+          kept_local_bytes(options));
 }
 
 std::uint64_t bake_bytes(int width, int height, const BakeOptions& options) {
@@ -51,7 +53,8 @@ std::uint64_t bake_bytes(int width, int height, const BakeOptions& options) {
   const std::uint64_t writing =
       count_texels(width, height) * kept_bytes(request.wanted, channels) + writing_bytes(width, options);
   return bytes_beside_solution(width, height, options) +
-         std::max(estimate_memory(width, height, request), writing);
+         std::max({estimate_memory(width, height, request), writing,
+                   count_texels(width, height) * (kMap + sizeof(Vector3) + passing_local_bytes(options))});
 }
 
 }  // namespace heightlight

@@ -6,7 +6,7 @@
 
 namespace heightlight {
 
-/// Bytes that light, albedo and channels of one's own take beside the solution.
+/// Bytes that light, albedo and channels of one's own, and local maps, take beside the solution.
 std::uint64_t bytes_beside_solution(int width, int height, const BakeOptions& options);
 
 /// Bytes that baking takes at its worst moment, on so many threads as there are now: while the solution is

@@ -18,6 +18,7 @@ namespace heightlight {
 namespace {
 
 constexpr double kHalfPi = std::numbers::pi / 2;
+constexpr const char* kPerLength = "1/world length";
 
 /// No coefficient of `sh` is larger: (1/π) ∫ Y² cosθ dω ≤ 0.0995 over all Y of norm 1 and degree 2, whose
 /// root bounds ∫ |Y|; degree 1 reaches 0.326, degree 0 0.282.
@@ -142,6 +143,48 @@ BakedChannel of_definition(SkyDefinition definition, const Material& material) {
           open,       [&map](std::size_t i) { return map.values[i]; }};
 }
 
+/// Around 0, which becomes the middle level.
+BakedChannel signed_detail(const char* quantity, const char* unit, const Map& map, double range) {
+  return {quantity, unit, -range, range, 0, [&map](std::size_t i) { return map.values[i]; }};
+}
+
+/// What of the curvature has that sign.
+BakedChannel curvature_part(const char* quantity, const Material& material, float sign) {
+  const LocalMaps& local = material.local;
+  return {quantity, kPerLength, 0, local.curvature_range, 0, [&local, sign](std::size_t i) {
+            const float curvature = sign * local.curvature.values[i];
+            return curvature < 0 ? 0 : curvature;  // NaN stays
+          }};
+}
+
+BakedChannel displacement(const Material& material, const BakeOptions& options) {
+  const Surface& surface = *material.surface;
+  const double unit = unit_of(options.displacement_unit).per_metre;
+  const double relief = double{surface.highest} - double{surface.lowest};
+  const double none = double{surface.lowest} + options.midlevel * relief;
+  const double span = relief > 0 ? relief * unit : 1;  // of a level map any will do
+  return {"displacement along the flat surface's normal",
+          unit_of(options.displacement_unit).name,
+          -options.midlevel * span,
+          (1 - options.midlevel) * span,
+          0,
+          [&surface, none, unit](std::size_t i) {
+            return static_cast<float>((double{surface.map.height.values[i]} - none) * unit);
+          }};
+}
+
+/// Slopes times the strength. NaN stays.
+std::vector<BakedChannel> normals(const Material& material, const BakeOptions& options) {
+  const Surface& surface = *material.surface;
+  const auto strength = static_cast<float>(options.normal_strength);
+  if (strength == 1)
+    return unit_vector(options.y_down, [&surface](std::size_t i) { return surface.normal.values[i]; });
+  return unit_vector(options.y_down, [&surface, strength](std::size_t i) {
+    const Vector3& own = surface.normal.values[i];
+    return to_vector3(Eigen::Vector3f(strength * own.x, strength * own.y, own.z).normalized());
+  });
+}
+
 BakedChannel height(const Material& material) {
   const Surface& surface = *material.surface;
   const float span = surface.highest - surface.lowest;
@@ -174,6 +217,12 @@ std::vector<std::string> suffixes_of(MaterialMap map, const BakeOptions& options
   return suffixes;
 }
 
+/// At what scale a map was found, if at one.
+std::string scale_text(MaterialMap map, const Material& material) {
+  if (!is_local(map)) return "";
+  return "; the Gaussian's standard deviation is " + in_digits(material.local.scale, 6) + " world units";
+}
+
 void add_textures(MaterialMap map, const Material& material, const BakeOptions& options,
                   std::vector<BakedTexture>& textures) {
   const std::vector<BakedChannel> channels = baked_channels(map, material, options);
@@ -189,7 +238,7 @@ void add_textures(MaterialMap map, const Material& material, const BakeOptions& 
   const auto parts = split(static_cast<int>(channels.size()), options.format);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     textures.push_back({suffixes[i],
-                        map_text(map, options),
+                        map_text(map, options) + scale_text(map, material),
                         {channels.begin() + parts[i].first, channels.begin() + parts[i].second}});
     if (options.format == TextureFormat::png && textures.back().channels.size() == 2) {
       textures.back().channels.push_back(constant_channel(0));
@@ -208,6 +257,11 @@ int component_count(MaterialMap map, const BakeOptions& options) {
     case MaterialMap::ao:
     case MaterialMap::height:
     case MaterialMap::specular_occlusion:
+    case MaterialMap::curvature:
+    case MaterialMap::convexity:
+    case MaterialMap::concavity:
+    case MaterialMap::cavity:
+    case MaterialMap::displacement:
       return 1;
     case MaterialMap::multibounce:
       return static_cast<int>(std::max(options.albedo.channels(), options.light_channels));
@@ -251,8 +305,7 @@ std::vector<BakedChannel> baked_channels(MaterialMap map, const Material& materi
       channels.push_back(cone_angle(material, true));
       return channels;
     case MaterialMap::normal:
-      return unit_vector(options.y_down,
-                         [&material](std::size_t i) { return material.surface->normal.values[i]; });
+      return normals(material, options);
     case MaterialMap::ao_n:
       return {share("sky view factor A", material.results.whole_sky_view_factor),
               share("n", material.results.seen)};
@@ -264,6 +317,18 @@ std::vector<BakedChannel> baked_channels(MaterialMap map, const Material& materi
       return {height(material)};
     case MaterialMap::specular_occlusion:
       return {share("specular occlusion", material.specular.occlusion)};
+    case MaterialMap::curvature:
+      return {signed_detail("mean curvature, convex above 0", kPerLength, material.local.curvature,
+                            material.local.curvature_range)};
+    case MaterialMap::convexity:
+      return {curvature_part("mean curvature where it is convex", material, 1)};
+    case MaterialMap::concavity:
+      return {curvature_part("mean curvature where it is concave", material, -1)};
+    case MaterialMap::cavity:
+      return {signed_detail("height above the Gaussian mean, over its standard deviation", "1",
+                            material.local.cavity, material.local.cavity_range)};
+    case MaterialMap::displacement:
+      return {displacement(material, options)};
     default:
       return {of_definition(*definition_of(map), material)};
   }

@@ -29,7 +29,9 @@ const char* definition(MaterialMap map, const BakeOptions& options) {
       return "bent cone: axis along the cosine-weighted bent normal; alpha: half-angle by openness, "
              "acos sqrt(1 - A), A = (1/pi) int V cos(theta) dw";
     case MaterialMap::normal:
-      return "unit normal of the surface, from central differences";
+      return options.normal_strength == 1 ? "unit normal of the surface, from central differences"
+                                          : "normal from central differences, slopes times the normal "
+                                            "strength of the sidecar: not physical";
     case MaterialMap::ao_n:
       return kStoredPairMeaning;
     case MaterialMap::horizon:
@@ -45,6 +47,24 @@ const char* definition(MaterialMap map, const BakeOptions& options) {
       return "specular occlusion: int V f cos(theta) dw over int f cos(theta) dw, f of GGX at the roughness "
              "and "
              "view of the sidecar; 1 = open; texels that face away are 1, or no number in files of floats";
+    case MaterialMap::curvature:
+      return "mean curvature of the heights' Gaussian mean, 1/world length: 1/R on a sphere, 0 flat, "
+             "negative "
+             "concave";
+    case MaterialMap::convexity:
+      return "mean curvature of the heights' Gaussian mean where it is convex, 1/world length; else 0";
+    case MaterialMap::concavity:
+      return "mean curvature of the heights' Gaussian mean where it is concave, 1/world length, positive; "
+             "else "
+             "0";
+    case MaterialMap::cavity:
+      return "height above the heights' Gaussian mean, over the Gaussian's standard deviation: 0 level with "
+             "the surroundings, negative in crevices";
+    case MaterialMap::displacement:
+      return options.displacement_unit == DisplacementUnit::metre
+                 ? "displacement from the midlevel of the sidecar along the flat surface's normal, in metres"
+                 : "displacement from the midlevel of the sidecar along the flat surface's normal, in "
+                   "centimetres";
     default:
       return facts_of(*definition_of(map)).formula;
   }
@@ -60,6 +80,11 @@ bool is_lit(MaterialMap map, const BakeOptions& options) {
     case MaterialMap::height:
     case MaterialMap::horizon:
     case MaterialMap::specular_occlusion:
+    case MaterialMap::curvature:
+    case MaterialMap::convexity:
+    case MaterialMap::concavity:
+    case MaterialMap::cavity:
+    case MaterialMap::displacement:
       return false;
     default:
       return !definition_of(map) || map == MaterialMap::svf_tilted || map == MaterialMap::terrain_view_factor;

@@ -80,6 +80,7 @@ Material find_material(const Surface& surface, const BakeOptions& options) {
   request.limits.memory -= std::min(request.limits.memory, beside);
   Material material;
   material.surface = &surface;
+  material.local = find_local_maps(surface, options);
   const bool is_lit = is_wanted(options, MaterialMap::multibounce) || is_wanted(options, MaterialMap::direct);
   if (options.light_channels > 0 && is_lit) {
     material.light = options.find_light(surface);

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "bake/bake.h"
+#include "bake/local_maps.h"
 #include "bake/model_map.h"
 #include "heightlight/solve.h"
 
@@ -14,6 +15,7 @@ struct Material {
   const Surface* surface = nullptr;
   Results results;             ///< the sky as far as the reach; horizons in the axes of the files
   SpecularOcclusion specular;  ///< where it is wanted
+  LocalMaps local;             ///< those that are wanted
   std::vector<Map> totals;     ///< E/π, per channel of the albedo or of the light
   BakedLight light;            ///< without channels where it is an even sky's
   std::vector<ModelError> model_errors;

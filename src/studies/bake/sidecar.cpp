@@ -80,6 +80,8 @@ Json describe_conventions(const BakeOptions& options, const Heightmap& map) {
                                                        : Json("rounded to the nearest")},
           {"normal_y", options.y_down ? "directx (y down the picture)" : "opengl (y up the picture)"},
           {"axes", "x right, z out of the picture"},
+          {"normal_strength", options.normal_strength},
+          {"normal_is_physical", options.normal_strength == 1},
           {"azimuths", north ? "clockwise from north, up the picture" : "from x toward y"},
           {"below_horizontal", ground ? "ground: nothing there shines" : "sky, where no surface is"},
           {"rows", "from the top"}};
@@ -123,6 +125,15 @@ Json describe_errors(const BakeOptions& options, const Material& material) {
                                                     {"8_bits", error.rmse_8_bits}});
   }
   return json;
+}
+
+/// What an engine's material wants: displacement = (level / largest level − midlevel) × scale.
+Json describe_displacement(const BakeOptions& options, double relief) {
+  const auto [name, per_metre] = unit_of(options.displacement_unit);
+  return {{"scale", relief * per_metre},
+          {"midlevel", options.midlevel},
+          {"unit", name},
+          {"of", "world units as metres"}};
 }
 
 Json describe_albedo(const Albedo& albedo) {
@@ -172,6 +183,10 @@ void write_sidecar(const std::filesystem::path& path, const BakeOptions& options
                      {"reflectance", options.gloss.reflectance},
                      {"view", {options.view.x, options.view.y, options.view.z}},
                      {"view_axes", "x right, y up the picture, z out of it"}};
+  if (material.local.scale > 0 || !material.local.curvature.values.empty())
+    json["detail"] = {{"gaussian_standard_deviation", material.local.scale}};
+  if (is_wanted(options, MaterialMap::displacement))
+    json["displacement"] = describe_displacement(options, facts.map.relief);
   json.update(describe_evidence(evidence));
   json["errors"] = describe_errors(options, material);
   json["warnings"] = describe_warnings(facts.warnings);

@@ -3,34 +3,15 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 
 #include "base/srgb.h"
+#include "base/area_mean.h"
 #include "base/texel_algebra.h"
 
 namespace heightlight {
 namespace {
 
 constexpr int kLargestSide = 512;
-constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
-
-/// First source sample of the i-th of `to` parts of `from` samples.
-int part_begin(int i, int from, int to) { return static_cast<int>(std::int64_t{i} * from / to); }
-
-/// Mean of the values present in a rectangle of texels; NaN where none is.
-float mean_of(const Map& map, int row_begin, int row_end, int column_begin, int column_end) {
-  double sum = 0;
-  int count = 0;
-  for (int row = row_begin; row < row_end; ++row) {
-    for (int column = column_begin; column < column_end; ++column) {
-      const float value = map(row, column);
-      if (std::isnan(value)) continue;
-      sum += static_cast<double>(value);
-      ++count;
-    }
-  }
-  return count > 0 ? static_cast<float>(sum / count) : kMissing;
-}
 
 Map shrink(const Map& map) {
   const int largest = std::max(map.width, map.height);
@@ -38,15 +19,7 @@ Map shrink(const Map& map) {
   const auto scaled = [largest](int side) {
     return std::max(1, static_cast<int>(std::lround(static_cast<double>(side) * kLargestSide / largest)));
   };
-  Map small(scaled(map.width), scaled(map.height));
-  for (int row = 0; row < small.height; ++row) {
-    for (int column = 0; column < small.width; ++column) {
-      small(row, column) = mean_of(
-          map, part_begin(row, map.height, small.height), part_begin(row + 1, map.height, small.height),
-          part_begin(column, map.width, small.width), part_begin(column + 1, map.width, small.width));
-    }
-  }
-  return small;
+  return area_mean(map, scaled(map.width), scaled(map.height));
 }
 
 }  // namespace

@@ -219,7 +219,8 @@ void check_windowed(const WindowedTask& task) {
   if (options.light_channels > 0) refuse("light", "", "light of one's own");
   if (!options.albedo.varying.empty()) refuse("albedo", "", "an albedo that varies over the map");
   if (!options.own.empty()) refuse("pack", "", "channels of files of one's own");
-  for (const MaterialMap map : {MaterialMap::ao_n, MaterialMap::specular_occlusion}) {
+  for (const MaterialMap map : {MaterialMap::ao_n, MaterialMap::specular_occlusion, MaterialMap::curvature,
+                                MaterialMap::convexity, MaterialMap::concavity, MaterialMap::cavity}) {
     if (is_wanted(options, map)) refuse("maps", to_string(map), to_string(map));
   }
   for (const MaterialMapName& entry : material_maps()) {
