@@ -18,6 +18,7 @@
 #include "cli/pack_options.h"
 #include "cli/preset.h"
 #include "cli/reach_options.h"
+#include "cli/relief_match.h"
 #include "cli/tell.h"
 #include "cli/terminal_watch.h"
 #include "cli/user_message.h"
@@ -40,6 +41,8 @@ InputGuard guard_inputs(const BakeCommand& command, const BakeInputs& listed) {
   std::vector<std::filesystem::path> files = listed.left_out;
   files.emplace_back(command.albedo);
   files.push_back(command.pack.preset_file);
+  files.emplace_back(command.match);
+  files.emplace_back(command.reliefs);
   for (const std::filesystem::path& path : light_files(command.light)) files.push_back(path);
   for (const BakeInput& input : listed.inputs) {
     files.push_back(input.path);
@@ -188,9 +191,9 @@ BakeOutcome bake_one_window(const BakeCommand& command, const BakeInput& input, 
 }
 
 /// In one piece where memory holds that, unless it is not to be; else window by window, where that can be.
-BakeOutcome bake_file(const BakeCommand& command, const BakeInput& input, const InputGuard& guard,
-                      bool quiet) {
-  return keep_promise(command.run, [&] {
+BakeOutcome bake_file(const BakeCommand& asked, const BakeInput& input, const InputGuard& guard, bool quiet) {
+  return keep_promise(asked.run, [&] {
+    const BakeCommand command = asked.match.empty() ? asked : with_matched_relief(asked, input);
     if (!command.window.empty()) return bake_one_window(command, input, guard, quiet);
     if (command.windows) return bake_by_windows(command, input, guard, quiet);
     try {
@@ -255,6 +258,9 @@ void bake(BakeCommand& command) {
   const std::vector<BakeInput>& inputs = listed.inputs;
   tell_left_out(listed);
   tell_unused_reliefs(command, listed);
+  if (!command.match.empty() && inputs.size() > 1)
+    throw UsageError("match", "",
+                     "is of one material, and there are " + std::to_string(inputs.size()) + " maps");
   const InputGuard guard = guard_inputs(command, listed);
   check_batch(command, listed, guard);
   const bool only_one = inputs.size() == 1;
@@ -322,7 +328,7 @@ void add_map_content_options(CLI::App& app, BakeCommand& command) {
                  "slopes of the normal map times this: 1, the heights' own, or what looks better (1)");
   app.add_option("--detail-scale", command.detail_scale,
                  "of curvature and cavity: standard deviation of the Gaussian mean of the heights, in world "
-                 "units or percent of the width (0.5%)")
+                 "units or percent of the width (0.25%)")
       ->type_name("D|P%");
   app.add_option("--midlevel", options.midlevel,
                  "of displacement: where in the relief it is none, from 0, the lowest place, to 1 (0.5)");
@@ -374,6 +380,12 @@ void add_bake_command(CLI::App& app) {
           "reliefs of maps by their names, in place of --relief: a file with lines of a name, a relief "
           "and perhaps a width (brick,5cm,1m)")
       ->type_name("FILE|NAME=H,…");
+  auto* match = command
+                    ->add_option("--match", options->match,
+                                 "a normal or AO map that the material came with: the relief is the one at "
+                                 "which the heights fit it best")
+                    ->type_name("FILE");
+  for (const char* other : {"--relief", "--height", "--reliefs"}) match->excludes(command->get_option(other));
   command->add_option("--error", options->options.error,
                       "RMSE wanted of the sky view factor and of the total (0.002)");
   command->add_option("--azimuths", options->options.azimuths,

@@ -34,6 +34,9 @@ struct BakeCommand {
   std::string pattern;
   std::string reliefs;                    ///< a file, or NAME=RELIEF,…
   std::vector<NamedRelief> relief_table;  ///< what it says
+  std::string match;                      ///< a normal or AO map whose relief is to be found
+  std::string match_sha256;               ///< of that file
+  std::string relief_from;                ///< how `load.relief` was found, where it was
   std::string detail_scale;               ///< of curvature and cavity
   std::string window;                     ///< COLUMN,ROW,WIDTH,HEIGHT; empty: the whole map
 };

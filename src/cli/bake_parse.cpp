@@ -3,6 +3,7 @@
 #include "cli/gloss_options.h"
 #include "cli/map_list.h"
 #include "cli/reach_options.h"
+#include "files/image_file.h"
 #include "files/projection_text.h"
 #include "files/terrain_file.h"
 #include "heightlight/error.h"
@@ -58,6 +59,7 @@ void parse_bake_options(BakeCommand& command) {
   if (!command.detail_scale.empty())
     options.detail_scale = parse_distance("detail_scale", command.detail_scale, 1);
   if (!command.reliefs.empty()) command.relief_table = read_reliefs(command.reliefs);
+  if (!command.match.empty()) command.match_sha256 = sha256_of_file(std::filesystem::path(command.match));
   check_load_options(command.load);
   check_albedo(command.albedo);
   check_light_options(command.light);
@@ -81,6 +83,7 @@ BakeOptions options_for(const BakeCommand& command, const std::filesystem::path&
   options.own = own_channels_for(options, map);
   if (has_own_light(command.light)) options.light_channels = count_light_channels(command.light);
   options.projection = read_projection_text(map);
+  options.relief_from = command.relief_from;
   return options;
 }
 

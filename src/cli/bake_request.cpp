@@ -14,12 +14,24 @@
 #include "heightlight/version.h"
 
 namespace heightlight {
+namespace {
+
+/// How the file becomes heights: of a relief that is to be found, what it is found by.
+nlohmann::ordered_json describe_heights(const BakeCommand& command) {
+  LoadOptions load = command.load;
+  if (!command.match.empty()) load.relief.reset();
+  nlohmann::ordered_json described = describe_load_options(load);
+  if (!command.match.empty()) described["match"] = command.match_sha256;
+  return described;
+}
+
+}  // namespace
 
 std::string request_of(const BakeCommand& command, const BakeOptions& options, const std::string& map_sha256,
                        const std::string& albedo_sha256) {
   nlohmann::ordered_json request = {{"version", HEIGHTLIGHT_VERSION},
                                     {"map", map_sha256},
-                                    {"load", describe_load_options(command.load)},
+                                    {"load", describe_heights(command)},
                                     {"maps", command.maps},
                                     {"pack", fmt::format("{}", fmt::join(command.pack.packs, " "))},
                                     {"albedo", albedo_sha256.empty() ? command.albedo : albedo_sha256},
@@ -55,7 +67,7 @@ std::string request_of(const BakeCommand& command, const BakeOptions& options, c
 std::string surface_of(const BakeCommand& command, const BakeOptions& options,
                        const std::string& map_sha256) {
   nlohmann::ordered_json surface = {
-      {"version", HEIGHTLIGHT_VERSION}, {"map", map_sha256}, {"load", describe_load_options(command.load)}};
+      {"version", HEIGHTLIGHT_VERSION}, {"map", map_sha256}, {"load", describe_heights(command)}};
   if (!options.projection.empty()) surface["projection"] = options.projection;
   return request_key(surface);
 }

@@ -18,7 +18,8 @@ struct MapOptions {
 /// For options that take an unsigned number of 64 bits.
 CLI::Validator whole_number();
 
-/// Adds `--relief --height --width --texel --boundary --size --big-endian --scale --offset --no-data --part --channel
+/// Adds `--relief --height --width --texel --boundary --size --big-endian --scale --offset --no-data --part
+/// --channel
 /// --shrink --invert --curvature`.
 void add_load_options(CLI::App& command, LoadOptions& load);
 

@@ -242,6 +242,28 @@ std::vector<MaterialMapName> with_definitions(std::vector<MaterialMapName> maps)
   return maps;
 }
 
+/// A relief that was guessed is too much where hardly any sky is seen, unless its slopes say so already.
+void doubt_darkness(const Material& material, std::vector<Warning>& warnings) {
+  constexpr double kDark = 0.3;
+  double sum = 0;
+  double count = 0;
+  for (const float sky : material.results.sky_view_factor.values) {
+    if (std::isnan(sky)) continue;
+    sum += double{sky};
+    ++count;
+  }
+  const bool is_told = std::any_of(warnings.begin(), warnings.end(), [](const Warning& warning) {
+    return warning.remedy.starts_with("relief");
+  });
+  if (count == 0 || sum > kDark * count || is_told) return;
+  warnings.insert(
+      warnings.begin(),
+      {fmt::format("its mean ambient occlusion is {:.2f}, since nothing tells its relief, which was "
+                   "taken as a tenth of the width; give its own",
+                   sum / count),
+       "relief"});
+}
+
 /// Of maps that a height's surroundings make.
 void check_local_options(const BakeOptions& options) {
   if (!(options.normal_strength > 0) || !std::isfinite(options.normal_strength))
@@ -369,8 +391,9 @@ BakeOutcome bake_material(LoadedHeightmap loaded, const BakeOptions& options, co
   check_bake_options(options);
   StagedBake staged(options, target);
   const Surface surface = build_surface(std::move(loaded.map));
-  return staged.write(find_material(surface, options), {.facts = loaded.facts, .place = loaded.place},
-                      std::move(loaded.warnings));
+  const Material material = find_material(surface, options);
+  if (loaded.facts.is_relief_guessed) doubt_darkness(material, loaded.warnings);
+  return staged.write(material, {.facts = loaded.facts, .place = loaded.place}, std::move(loaded.warnings));
 }
 
 BakeOutcome write_material(const Material& material, const HeightSource& source, const BakeOptions& options,

@@ -121,7 +121,7 @@ struct BakeOptions {
   Vector3 view = {0, 0, 1};    ///< and toward the viewer; world axes, z > 0
   double normal_strength = 1;  ///< of `normal`: slopes are multiplied by it; 1 is the surface's own
   /// Standard deviation of the Gaussian mean that curvature and cavity are of, in world units, ≥ 0 (of a
-  /// cavity > 0); default 0.5 % of the width
+  /// cavity > 0); default 0.25 % of the width
   std::optional<double> detail_scale = {};
   double midlevel = 0.5;  ///< of displacement: the height that is none, over the relief, in [0, 1]
   DisplacementUnit displacement_unit = DisplacementUnit::metre;
@@ -137,9 +137,10 @@ struct BakeOptions {
   std::size_t light_channels = 0;  ///< > 0: multibounce and direct are of another light than an even sky
   std::function<BakedLight(const Surface&)> find_light = {};  ///< which this finds, with so many channels
   Watch watch = {};                                           ///< of the solution
-  std::string projection = {};  ///< text of the .prj that goes beside each Esri grid; empty: none does
-  std::string request = {};     ///< what was asked for, as the asker knows it again; stands in the sidecar
-  std::string surface = {};     ///< likewise the heights alone: earlier maps of the same ones stay
+  std::string projection = {};   ///< text of the .prj that goes beside each Esri grid; empty: none does
+  std::string relief_from = {};  ///< how the relief was found, for the sidecar; empty: it was not
+  std::string request = {};      ///< what was asked for, as the asker knows it again; stands in the sidecar
+  std::string surface = {};      ///< likewise the heights alone: earlier maps of the same ones stay
 };
 
 /// Names of files that baking writes alike for every map: shaders, and the tables that they read.

@@ -14,7 +14,7 @@
 namespace heightlight {
 namespace {
 
-constexpr double kScaleShare = 0.005;  // of the width
+constexpr double kScaleShare = 0.0025;  // of the width
 
 bool wants_curvature(const BakeOptions& options) {
   return is_wanted(options, MaterialMap::curvature) || is_wanted(options, MaterialMap::convexity) ||

@@ -166,6 +166,7 @@ void write_sidecar(const std::filesystem::path& path, const BakeOptions& options
   if (!options.surface.empty()) json["surface"] = options.surface;
   json["map"] = describe_map(facts.source, facts.map.sha256, facts.map.header,
                              {.relief = facts.map.relief, .missing = facts.map.missing});
+  if (!options.relief_from.empty()) json["map"]["relief_from"] = options.relief_from;
   json["files"] = describe_textures(options, textures, facts.files);
   for (const Json& entry : facts.former) json["files"].push_back(entry);
   if (!options.own.empty()) json["packed_from"] = describe_own(options.own);
