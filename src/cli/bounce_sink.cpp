@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cli/reach_options.h"
+#include "cli/simulate_report.h"
 #include "cli/simulation_files.h"
 #include "files/saved_run.h"
 #include "heightlight/error.h"
@@ -45,6 +46,10 @@ void SimulationSink::take_bounce(int b, const TexelVector& irradiance) {
   alpha_->add(irradiance);
   sky_->add(irradiance);
   if (b < kPreviewedBounces) first_.push_back(grey_picture(to_map(irradiance, surface_)));
+  if (options_.report && b < kReportedBounces) {
+    const Map bounce = to_map(irradiance, surface_);
+    reported_.push_back(make_preview({&bounce}));
+  }
   if (!options_.save_bounces) return;
   write_map(output_, std::filesystem::path(bounce_file(b)).stem().string(), to_map(irradiance, surface_),
             "E_b / pi at albedo 1, b = " + std::to_string(b));

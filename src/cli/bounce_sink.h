@@ -9,6 +9,7 @@
 #include "files/staged_output.h"
 #include "heightlight/curves.h"
 #include "heightlight/solve.h"
+#include "report/preview.h"
 
 namespace heightlight {
 
@@ -26,6 +27,8 @@ class SimulationSink : public BounceSink {
 
   /// The first bounces, for the eye.
   const std::vector<Image<Rgb8>>& first() const { return first_; }
+  /// The same for the report, where that is wanted.
+  const std::vector<Preview>& reported() const { return reported_; }
   /// Over α, and over A.
   std::vector<BounceCurves> curves() const { return {alpha_->curves(), sky_->curves()}; }
 
@@ -41,6 +44,7 @@ class SimulationSink : public BounceSink {
   std::optional<CurveBuilder> alpha_;
   std::optional<CurveBuilder> sky_;
   std::vector<Image<Rgb8>> first_;
+  std::vector<Preview> reported_;
 };
 
 }  // namespace heightlight

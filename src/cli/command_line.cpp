@@ -13,6 +13,7 @@
 #include <string>
 
 #include "cli/commands.h"
+#include "cli/noted_command.h"
 #include "cli/plots.h"
 #include "cli/tell.h"
 #include "cli/user_message.h"
@@ -119,6 +120,7 @@ int check_printed(int exit_code) {
 
 int run_command_line(int argument_count, const char* const* arguments) {
   open_standard_streams();
+  note_command(argument_count, arguments);
   CLI::App app{
       "Light on height fields: ambient occlusion, form factors, bounces, and what closed forms make of them"};
   app.footer(

@@ -6,6 +6,7 @@
 #include "base/byte_size.h"
 #include "cli/commands.h"
 #include "cli/reach_options.h"
+#include "cli/report_facts.h"
 #include "cli/simulation.h"
 #include "cli/terminal_watch.h"
 #include "cli/warnings.h"
@@ -69,6 +70,7 @@ void add_simulate_command(CLI::App& app) {
       ->type_name("D|P%");
   command->add_option("--falloff", options->falloff, "of them: none, linear, sqrt (default) or exponential")
       ->check(CLI::IsMember(falloff_names()));
+  add_report_option(*command, options->report);
   add_run_options(*command, options->run);
   command->footer(
       "Examples:\n"

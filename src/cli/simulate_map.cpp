@@ -6,6 +6,8 @@
 #include "cli/memory_promise.h"
 #include "cli/name_errors.h"
 #include "cli/reach_options.h"
+#include "cli/report_facts.h"
+#include "cli/simulate_report.h"
 #include "cli/simulation.h"
 #include "cli/simulation_files.h"
 #include "files/input_file.h"
@@ -51,7 +53,8 @@ std::uint64_t bytes_held(int width, int height, const SimulateOptions& options, 
   const std::uint64_t light = lit ? 3 * (2 * kVector + kMap) + 2 * horizon_sky_bytes({}) + kVector : 0;
   const std::uint64_t per_texel = ends + transfer + light + SimulationSink::bytes_per_texel() +
                                   albedo.channels() * kMap + albedo.varying.size() * kVector;
-  return texels * per_texel + (lit ? gather_bytes(width, height, 0) : 0);
+  const std::uint64_t report = options.report ? simulation_report_bytes(width, height, albedo, lit) : 0;
+  return texels * per_texel + (lit ? gather_bytes(width, height, 0) : 0) + report;
 }
 
 Request make_request(const SimulateOptions& options, const Albedo& albedo, const Watch& watch) {
@@ -150,8 +153,7 @@ std::vector<Map> to_maps(const std::vector<TexelVector>& channels, const Surface
 }
 
 void write_maps(const MapFolder& output, const Surface& surface, const Results& results,
-                const SimulationSink& sink) {
-  const std::vector<Map> totals = to_maps(results.totals[0], surface);
+                const SimulationSink& sink, const std::vector<Map>& totals) {
   write_occlusion(output, results);
   write_totals(output, totals);
   write_pictures(output.folder, surface, results, sink.first(), totals);
@@ -224,10 +226,21 @@ Simulation simulate_within(const SimulateOptions& options, Plots& plots, const W
                [&](const auto& paths) { plot_curves(paths[0], paths[1], input); });
   }
   seconds.curves = results.evidence.seconds.sink + lap.lap();
-  write_maps(output, surface, results, sink);
-  if (!light.channels.empty()) write_direct(output, to_maps(light.channels, surface));
+  const std::vector<Map> totals = to_maps(results.totals[0], surface);
+  const std::vector<Map> direct = to_maps(light.channels, surface);
+  write_maps(output, surface, results, sink, totals);
+  if (!direct.empty()) write_direct(output, direct);
   seconds.output = lap.lap();
   seconds.total = total.lap();
+  if (options.report) {
+    write_simulation_report(folder.file(kReportFile), options, simulation,
+                            {.surface = surface,
+                             .results = results,
+                             .totals = totals,
+                             .direct = direct,
+                             .bounces = sink.reported(),
+                             .curves = curves});
+  }
   simulation.files = folder.written();
   write_summary(folder.file("summary.json"), options, surface, albedo, simulation);
   simulation.removed = folder.commit();

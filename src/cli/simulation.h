@@ -33,6 +33,7 @@ struct SimulateOptions {
   LightOptions light = {};  ///< of the total; bounces and curves are those of an even sky
   bool save_bounces = false;
   bool save_links = false;
+  bool report = false;           ///< also write report.html
   std::string obscurance;        ///< a distance, up to which occluders count; empty: it is not asked for
   std::string falloff = "sqrt";  ///< of the occluders within it
 };

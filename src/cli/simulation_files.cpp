@@ -58,6 +58,7 @@ std::vector<std::string> simulation_file_names(int bounces) {
                                  "curves.svg",
                                  "curves.png",
                                  "summary.json",
+                                 "report.html",
                                  "height.png",
                                  "ambient_occlusion.png",
                                  "sky_view_factor.png",

@@ -41,6 +41,7 @@ const std::map<std::string, Names> kMayInclude = {
     {"window", {"base", "heightmap", "surface", "visibility"}},
     {"files", kCore},
     {"relief", kCore},
+    {"report", with(kCore, {"files"})},
     {"expression", with(kCore, {"files"})},
     {"user_form", with(kCore, {"files", "expression"})},
     {"fit", with(kCore, {"files", "expression", "user_form"})},
@@ -51,7 +52,7 @@ const std::map<std::string, Names> kMayInclude = {
     {"windows", with(kCore, {"files", "bake"})},
     {"plot", with(kCore, {"files", "expression", "user_form", "relief", "fit", "comparison"})},
     {"cli", with(kCore, {"files", "expression", "user_form", "relief", "fit", "comparison", "terrain",
-                         "shading", "bake", "windows", "plot"})},
+                         "shading", "bake", "windows", "plot", "report"})},
     {"python", with(kCore, {"files", "expression", "user_form", "fit", "comparison", "bake", "windows"})},
 };
 
@@ -85,7 +86,8 @@ const std::map<std::string, std::string> kLayerOfPublicHeader = {
     {"terrain_forms.h", "forms"},
 };
 
-const Names kCommands = {"fit", "comparison", "terrain", "shading", "bake", "windows", "plot", "cli"};
+const Names kCommands = {"fit",     "comparison", "terrain", "shading", "bake",
+                         "windows", "plot",       "report",  "cli"};
 
 /// Libraries, by how their headers' names begin, and the layers that include them. No public header does.
 const std::map<std::string, Names> kUsers = {

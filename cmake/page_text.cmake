@@ -1,0 +1,12 @@
+# The style and the scripts of reports, as text in the program: HEIGHTLIGHT_PAGE_TEXT is the source that holds them.
+set(report_folder ${PROJECT_SOURCE_DIR}/src/studies/report)
+file(READ ${report_folder}/report.css HEIGHTLIGHT_PAGE_STYLE)
+set(HEIGHTLIGHT_PAGE_SCRIPT "")
+foreach(script page_parts pictures charts tables)
+  file(READ ${report_folder}/${script}.js text)
+  string(APPEND HEIGHTLIGHT_PAGE_SCRIPT "${text}")
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${report_folder}/${script}.js)
+endforeach()
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${report_folder}/report.css)
+set(HEIGHTLIGHT_PAGE_TEXT ${PROJECT_BINARY_DIR}/report/page_text.cpp)
+configure_file(${report_folder}/page_text.cpp.in ${HEIGHTLIGHT_PAGE_TEXT} @ONLY)

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <string>
+
+namespace heightlight {
+
+/// The bytes as a zlib stream (RFC 1950).
+std::string deflate_bytes(const std::string& bytes);
+
+}  // namespace heightlight
