@@ -5,16 +5,19 @@
 #include <memory>
 
 #include "base/byte_size.h"
+#include "base/stopwatch.h"
 #include "cli/albedo.h"
 #include "cli/commands.h"
 #include "cli/compare_json.h"
 #include "cli/compare_pictures.h"
+#include "cli/compare_report.h"
 #include "cli/compare_shading.h"
 #include "cli/compare_terrain.h"
 #include "cli/map_options.h"
 #include "cli/memory_promise.h"
 #include "cli/name_errors.h"
 #include "cli/plots.h"
+#include "cli/report_facts.h"
 #include "cli/terminal_watch.h"
 #include "cli/user_form_options.h"
 #include "cli/warnings.h"
@@ -43,6 +46,7 @@ struct CompareOptions {
   TerrainOptions terrain;
   SpecularCompareOptions specular;
   bool directional = false;
+  bool report = false;
 };
 
 /// Albedos under the names that the table's quantities have: numbers one by one, or what an image holds.
@@ -84,7 +88,8 @@ std::uint64_t bytes_held(const Surface& surface, std::size_t albedos, std::size_
 /// What a method may take: the limit less that.
 std::uint64_t memory_for_methods(const CompareOptions& options, const Surface& surface,
                                  const std::vector<ComparedAlbedo>& albedos) {
-  const std::uint64_t held = bytes_held(surface, albedos.size(), shown_methods().size());
+  const std::uint64_t held = bytes_held(surface, albedos.size(), shown_methods().size()) +
+                             (options.report ? comparison_report_bytes(surface, albedos.size()) : 0);
   if (held < options.run.memory) return options.run.memory - held;
   throw MemoryError("comparing on " + std::to_string(surface.width()) + " × " +
                         std::to_string(surface.height()) + " texels needs " + format_byte_size(held) +
@@ -97,7 +102,7 @@ std::vector<std::string> result_names() {
   std::vector<std::string> names{"compare.csv",      "compare.json", "report.md",     "forms.svg",
                                  "forms.png",        "pareto.svg",   "pareto.png",    "errors.png",
                                  "total_errors.png", "showtime.png", "sky_light.png", "directions.png",
-                                 "forms.glsl",       "forms.hlsl"};
+                                 "forms.glsl",       "forms.hlsl",   kReportFile};
   const std::vector<std::string> shown = shown_methods();
   for (std::size_t i = 0; i < shown.size(); ++i) names.push_back(error_picture_name(i + 1, shown[i]));
   return names;
@@ -136,6 +141,7 @@ std::vector<std::string> find_poles(const std::vector<FormOnMap>& own_forms, con
 
 void compare_on(const CompareOptions& options, const Surface& surface, LoadedHeightmap& loaded,
                 const std::vector<UserForm>& own, StagedFolder& folder, Plots& plots) {
+  const Stopwatch watch;
   std::vector<ComparedAlbedo> albedos = compared_albedos(options, surface);
   const std::uint64_t memory = memory_for_methods(options, surface, albedos);
   const ComparisonStudy study(surface, {.albedos = std::move(albedos),
@@ -165,6 +171,8 @@ void compare_on(const CompareOptions& options, const Surface& surface, LoadedHei
   }
   write_error_pictures(folder, study.comparison.shown);
   draw_comparison(folder, input, plots);
+  if (options.report)
+    write_comparison_report(folder.file(kReportFile), options.map.path, loaded, input, watch.elapsed().wall);
   const std::vector<FileRecord> files = folder.written();
   write_bytes(folder.file("compare.json"), comparison_json(options.map.path, loaded, input, files));
   const std::vector<std::string> removed = folder.commit();
@@ -225,6 +233,9 @@ void add_compare_command(CLI::App& app) {
       ->excludes(specular)
       ->excludes(directional);
   add_user_form_options(*command, options->forms);
+  add_report_option(*command, options->report);
+  for (CLI::Option* other : {terrain, specular, directional})
+    command->get_option("--report")->excludes(other);
   for (const char* own : {"--form", "--forms"}) {
     for (CLI::Option* other : {terrain, specular, directional}) command->get_option(own)->excludes(other);
   }

@@ -4,12 +4,15 @@
 #include <memory>
 
 #include "base/progress.h"
+#include "base/stopwatch.h"
 #include "cli/commands.h"
+#include "cli/fit_page.h"
 #include "cli/fit_pictures.h"
 #include "cli/fit_print.h"
 #include "cli/map_options.h"
 #include "cli/memory_promise.h"
 #include "cli/plots.h"
+#include "cli/report_facts.h"
 #include "cli/tell.h"
 #include "cli/terminal_watch.h"
 #include "cli/user_form_options.h"
@@ -31,6 +34,7 @@ struct FitOptions {
   int bootstrap = 200;
   UserFormOptions forms;
   RunOptions run;
+  bool report = false;
 };
 
 /// `inputs` gets the file of each.
@@ -114,7 +118,8 @@ void draw_plots(StagedFolder& folder, const FitReport& report, Plots& plots) {
 }
 
 std::vector<std::string> fit_result_names() {
-  std::vector<std::string> names{"models.json", "models.csv", "ratios.csv", "models.glsl", "models.hlsl"};
+  std::vector<std::string> names{"models.json", "models.csv",  "ratios.csv",
+                                 "models.glsl", "models.hlsl", kReportFile};
   for (const std::string plot : {"fitted", "errors", "bounces", "ratios", "saturation", "cubic"}) {
     names.push_back(plot + ".svg");
     names.push_back(plot + ".png");
@@ -123,6 +128,7 @@ std::vector<std::string> fit_result_names() {
 }
 
 void fit(FitOptions& options) {
+  const Stopwatch watch;
   apply_run_options(options.run);
   check_bootstrap(options.bootstrap);
   const std::vector<UserForm> own = read_user_forms(options.forms.forms, options.forms.file);
@@ -143,6 +149,7 @@ void fit(FitOptions& options) {
   write_bytes(folder.file("models.glsl"), shader_of_report(report, own, ShaderLanguage::glsl));
   write_bytes(folder.file("models.hlsl"), shader_of_report(report, own, ShaderLanguage::hlsl));
   draw_plots(folder, report, plots);
+  if (options.report) write_fit_page(folder.file(kReportFile), report, options.curves, watch.elapsed().wall);
   report.files = folder.written();
   write_bytes(folder.file("models.json"), report_json(report));
   const std::vector<std::string> removed = folder.commit();
@@ -166,6 +173,7 @@ void add_fit_command(CLI::App& app) {
   command->add_option("-o,--output", options->folder, "folder for the results")->type_name("DIR")->required();
   add_user_form_options(*command, options->forms);
   command->add_option("--bootstrap", options->bootstrap, "draws for the intervals of parameters (200)");
+  add_report_option(*command, options->report);
   add_run_options(*command, options->run);
   command->footer(
       "Where simulate --save-bounces left every bounce beside a curves.csv, forms are judged texel by texel "

@@ -32,9 +32,13 @@ Map angles_deg(const Image<Vector3>& vectors, const Image<Vector3>& reference) {
   return angles;
 }
 
-Map thin_out(const Map& map) {
+int thinning_step(int width, int height) {
   constexpr int kSide = 256;
-  const int step = (std::max(map.width, map.height) + kSide - 1) / kSide;
+  return (std::max(width, height) + kSide - 1) / kSide;
+}
+
+Map thin_out(const Map& map) {
+  const int step = thinning_step(map.width, map.height);
   Map thin((map.width + step - 1) / step, (map.height + step - 1) / step);
   for (int row = 0; row < thin.height; ++row) {
     for (int column = 0; column < thin.width; ++column) thin(row, column) = map(row * step, column * step);

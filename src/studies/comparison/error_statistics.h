@@ -21,6 +21,9 @@ Map subtract(const Map& map, const Map& reference);
 /// Angle between unit vectors, degrees; NaN where either has no value.
 Map angles_deg(const Image<Vector3>& vectors, const Image<Vector3>& reference);
 
+/// The n of thin_out.
+int thinning_step(int width, int height);
+
 /// Every n-th texel of every n-th row, so that no side has more than 256 and noise stays what it is.
 Map thin_out(const Map& map);
 

@@ -45,8 +45,10 @@ class Chart {
   }
 
   colour(i) {
-    if (!this.chart.ordered) return CURVE_COLOURS[i % CURVE_COLOURS.length];
-    return `hsl(${265 - 225 * i / Math.max(1, this.curves.length - 1)} 65% 50%)`;
+    const at = this.curves[i].colour ?? i;
+    if (!this.chart.ordered) return CURVE_COLOURS[at % CURVE_COLOURS.length];
+    const last = Math.max(1, ...this.curves.map((curve, k) => curve.colour ?? k));
+    return `hsl(${265 - 225 * at / last} 65% 50%)`;
   }
 
   dashes(i) {

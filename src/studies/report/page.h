@@ -53,6 +53,7 @@ struct PageCurve {
   std::vector<std::array<double, 2>> points = {};  ///< lines break where y is NaN
   bool shown = true;                               ///< at first
   bool dashed = false;
+  std::optional<std::size_t> colour = {};  ///< curves of one number share it; empty: the curve's own
 };
 
 struct PageChart {

@@ -87,8 +87,12 @@ Json describe_chart(const PageChart& chart) {
       x.push_back(shown_number(point[0]));
       y.push_back(shown_number(point[1]));
     }
-    curves.push_back(
-        {{"name", curve.name}, {"shown", curve.shown}, {"dashed", curve.dashed}, {"x", x}, {"y", y}});
+    curves.push_back({{"name", curve.name},
+                      {"shown", curve.shown},
+                      {"dashed", curve.dashed},
+                      {"colour", curve.colour ? Json(*curve.colour) : Json(nullptr)},
+                      {"x", x},
+                      {"y", y}});
   }
   return {{"title", chart.title}, {"about", chart.about},     {"x", chart.x},
           {"y", chart.y},         {"log_x", chart.log_x},     {"log_y", chart.log_y},
