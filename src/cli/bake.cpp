@@ -11,6 +11,7 @@
 #include "base/progress.h"
 #include "cli/albedo.h"
 #include "cli/bake_command.h"
+#include "cli/bake_report.h"
 #include "cli/commands.h"
 #include "cli/map_options.h"
 #include "cli/memory_promise.h"
@@ -29,6 +30,7 @@
 #include "files/printable.h"
 #include "files/staged_output.h"
 #include "heightlight/error.h"
+#include "report/preview.h"
 #include "windows/bake_window.h"
 #include "windows/windowed_bake.h"
 
@@ -89,8 +91,9 @@ BakeOutcome bake_within(const BakeCommand& command, const BakeInput& input, cons
   options.watch = terminal_watch(quiet);
   options.albedo = announced_albedo(command.albedo);
   LoadedHeightmap loaded =
-      load_heightmap(input.path, command.load, command.run.memory,
-                     [&](int width, int height) { return bake_bytes(width, height, options); });
+      load_heightmap(input.path, command.load, command.run.memory, [&](int width, int height) {
+        return bake_bytes(width, height, options) + bake_report_bytes(width, height, options);
+      });
   ReadAlbedo albedo = read_albedo(command.albedo, loaded.map, command.run.memory);
   options.albedo = std::move(albedo.albedo);
   if (!command.max_distance.empty()) {
@@ -125,6 +128,8 @@ BakeOutcome bake_within(const BakeCommand& command, const BakeInput& input, cons
 WindowedTask windowed_task(const BakeCommand& command, const BakeInput& input) {
   WindowedTask task{.map = input.path, .load = command.load, .options = options_for(command, input.path)};
   task.options.albedo = announced_albedo(command.albedo);
+  const std::uint64_t report = bake_report_bytes(kLargestPreview, kLargestPreview, task.options);
+  task.options.memory -= std::min(task.options.memory, report);
   task.folder = command.folder / ("." + input.name + ".windows");
   if (!command.max_distance.empty()) {
     task.reach = [&command](double width) {
@@ -411,6 +416,10 @@ void add_bake_command(CLI::App& app) {
       ->add_option("--pattern", options->pattern,
                    "of folders, bake the files with such names (*_height.png), whatever they are called")
       ->type_name("GLOB");
+  command->add_flag(
+      "--report", options->report,
+      "also write NAME_report.html of each map: one file for any browser, with pictures that zoom and "
+      "flip, and the evidence");
   add_run_options(*command, options->run);
   command->footer(describe_maps() + describe_presets() +
                   "Each goes into NAME_map.png; NAME_bake.json says what they hold and what they err by.\n"

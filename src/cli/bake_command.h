@@ -38,6 +38,7 @@ struct BakeCommand {
   std::string match_sha256;               ///< of that file
   std::string relief_from;                ///< how `load.relief` was found, where it was
   std::string detail_scale;               ///< of curvature and cavity
+  bool report = false;                    ///< also write NAME_report.html
   std::string window;                     ///< COLUMN,ROW,WIDTH,HEIGHT; empty: the whole map
 };
 

@@ -1,5 +1,6 @@
 #include "cli/albedo.h"
 #include "cli/bake_command.h"
+#include "cli/bake_report.h"
 #include "cli/gloss_options.h"
 #include "cli/map_list.h"
 #include "cli/reach_options.h"
@@ -84,6 +85,7 @@ BakeOptions options_for(const BakeCommand& command, const std::filesystem::path&
   if (has_own_light(command.light)) options.light_channels = count_light_channels(command.light);
   options.projection = read_projection_text(map);
   options.relief_from = command.relief_from;
+  if (command.report) options.write_report = write_bake_report;
   return options;
 }
 

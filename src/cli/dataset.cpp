@@ -15,6 +15,7 @@
 #include "cli/dataset_tables.h"
 #include "cli/dataset_work.h"
 #include "cli/manifest.h"
+#include "cli/report_facts.h"
 #include "cli/shard.h"
 #include "files/printable.h"
 #include "files/staged_output.h"
@@ -31,6 +32,7 @@ struct DatasetOptions {
   fs::path folder;
   std::string shard;  ///< "K/N"; empty: all runs, and then the tables
   bool merge = false;
+  bool report = false;
   RunOptions run;
 };
 
@@ -99,7 +101,7 @@ void check_runs(const Dataset& dataset) {
 void make_whole(Dataset& dataset, const DatasetOptions& options) {
   Plots plots;
   make_runs(dataset, options, plots);
-  write_tables(dataset.origin, dataset.runs, options.folder, dataset.inputs);
+  write_tables(dataset.origin, dataset.runs, options.folder, dataset.inputs, options.report);
   if (!options.run.quiet) {
     const std::ptrdiff_t stale = count_stale(dataset.runs, options.folder);
     if (stale > 0) fmt::print("{} folders in runs/ belong to no run of the manifest any more\n", stale);
@@ -121,7 +123,7 @@ void make_shard(Dataset& dataset, const Shard& shard, const DatasetOptions& opti
 }
 
 void merge(const Dataset& dataset, const DatasetOptions& options) {
-  const MergeFolders folders{.folder = options.folder, .others = options.others};
+  const MergeFolders folders{.folder = options.folder, .others = options.others, .report = options.report};
   const std::ptrdiff_t taken = merge_runs(dataset.origin, dataset.runs, folders, dataset.inputs);
   if (options.run.quiet) return;
   fmt::print("{}: {} runs, {} of them taken in from other folders\nresults in {}\n",
@@ -168,11 +170,14 @@ void add_dataset_command(CLI::App& app) {
   command->add_option("FOLDER", options->others,
                       "with --merge: other folders of this dataset, whose runs are taken in");
   command->add_option("-o,--output", options->folder, "folder for the results")->type_name("DIR")->required();
-  command
-      ->add_option("--shard", options->shard,
-                   "do share K of N of the runs, from 1 to N, and leave the tables to --merge")
-      ->type_name("K/N");
+  CLI::Option* shard =
+      command
+          ->add_option("--shard", options->shard,
+                       "do share K of N of the runs, from 1 to N, and leave the tables to --merge")
+          ->type_name("K/N");
   command->add_flag("--merge", options->merge, "write the tables from runs that are done; simulate nothing");
+  add_report_option(*command, options->report);
+  shard->excludes(command->get_option("--report"));
   add_resource_options(*command, options->run);
   command->footer(
       describe_manifest() +

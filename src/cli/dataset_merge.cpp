@@ -100,7 +100,7 @@ std::ptrdiff_t merge_runs(const nlohmann::ordered_json& origin, const std::vecto
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (places[i] != folders.folder) take_in(runs[i], places[i]);
   }
-  write_tables(origin, runs, folders.folder, inputs);
+  write_tables(origin, runs, folders.folder, inputs, folders.report);
   return std::count_if(places.begin(), places.end(),
                        [&](const fs::path& place) { return place != folders.folder; });
 }

@@ -12,6 +12,7 @@ namespace heightlight {
 struct MergeFolders {
   std::filesystem::path folder;               ///< gets the tables, and the runs that only others have
   std::vector<std::filesystem::path> others;  ///< are read
+  bool report = false;                        ///< write report.html, too
 };
 
 /// Takes in what others hold and writes the tables. Merging once more changes no byte. Returns how many runs

@@ -10,6 +10,8 @@
 #include "base/digits.h"
 #include "cli/dataset_locks.h"
 #include "cli/dataset_origin.h"
+#include "cli/dataset_report.h"
+#include "cli/report_facts.h"
 #include "files/evidence_json.h"
 #include "files/input_file.h"
 #include "files/interrupt.h"
@@ -92,7 +94,7 @@ Json describe_failure(const DatasetRun& run) {
       {"run", run.name}, {"map", run.map->name}, {"source", describe_source(*run.map)}, {"fault", run.fault}};
 }
 
-constexpr std::array kTables{"dataset.csv", "costs.csv", "dataset.json"};
+constexpr std::array kTables{"dataset.csv", "costs.csv", kReportFile, "dataset.json"};
 
 constexpr std::array kSteps{"load",  "visibility", "transport", "bounces",
                             "check", "curves",     "output",    "total"};
@@ -131,12 +133,13 @@ void refuse_to_replace(const std::vector<fs::path>& inputs, const fs::path& fold
 }
 
 void write_tables(const Json& origin, const std::vector<DatasetRun>& runs, const fs::path& folder,
-                  const std::vector<fs::path>& inputs) {
+                  const std::vector<fs::path>& inputs, bool with_report) {
   const auto lock = LockFile::take(tables_lock_path(folder));
   StagedFolder staged(folder, inputs, {kTables.begin(), kTables.end()});
   Json done = Json::array();
   Json failed = Json::array();
   std::string costs = cost_header();
+  std::vector<ReportedRun> reported;
   write_file(staged.file("dataset.csv"), [&](std::FILE* table) {
     fmt::print(table, "run,map,relief_share,boundary,options,{}\n", kCurvesHeader);
     for (const DatasetRun& run : runs) {
@@ -148,9 +151,11 @@ void write_tables(const Json& origin, const std::vector<DatasetRun>& runs, const
       append_curves(run, describe_line(run, summary), table);
       done.push_back(describe_run(run, summary));
       costs += cost_line(run, summary);
+      if (with_report) reported.push_back({.run = run, .summary = summary});
     }
   });
   write_bytes(staged.file("costs.csv"), costs);
+  if (with_report) write_dataset_report(staged.file(kReportFile), reported, runs);
   Json all = origin;
   all["runs"] = done;
   all["failed"] = failed;

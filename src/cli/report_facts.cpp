@@ -9,6 +9,7 @@
 #include "base/byte_size.h"
 #include "cli/warnings.h"
 #include "files/printable.h"
+#include "solve/solver.h"
 
 namespace heightlight {
 namespace {
@@ -17,7 +18,6 @@ namespace {
 PageFact error_fact(const std::string& name, double error, const Evidence& evidence) {
   const double wanted = evidence.error_wanted;
   if (wanted <= 0) return {.name = name, .value = fmt::format("{:.2g}", error)};
-  constexpr double kMissed = 1.15;  // as find_faults has it
   const bool missed = error > kMissed * wanted;
   return {.name = name,
           .value = fmt::format("{:.2g} of {:g} wanted", error, wanted),

@@ -166,6 +166,8 @@ std::vector<std::string> checked_files(const std::string& name, const BakeOption
   return baked_files(name, options);
 }
 
+std::string report_file(const std::string& name) { return name + "_report.html"; }
+
 /// A folder that is ready to take a bake. All arguments must outlive it.
 class StagedBake {
  public:
@@ -189,6 +191,17 @@ class StagedBake {
     if (is_wanted(options_, MaterialMap::ao_n)) write_shaders(folder_);
     if (is_wanted(options_, MaterialMap::specular_occlusion)) write_gloss_files(folder_, options_);
     told.output_seconds = watch.lap();
+    if (options_.write_report) {
+      options_.write_report(folder_.file(report_file(target_.name)), {.map = map,
+                                                                      .textures = textures,
+                                                                      .values = values,
+                                                                      .options = options_,
+                                                                      .target = target_,
+                                                                      .files = files_,
+                                                                      .warnings = told.warnings,
+                                                                      .output_seconds = told.output_seconds});
+      told.report = folder_.written().back();
+    }
     write_sidecar(folder_.file(files_.back()), options_, textures, told);
     return {.warnings = std::move(told.warnings), .removed = folder_.commit()};
   }
@@ -324,6 +337,7 @@ std::vector<std::string> baked_files(const std::string& name, const BakeOptions&
        ++i)
     files.push_back(std::filesystem::path(files[i]).replace_extension(".prj").string());
   for (std::string& file : shared_files(options)) files.push_back(std::move(file));
+  if (options.write_report) files.push_back(report_file(name));
   files.push_back(name + "_bake.json");
   return files;
 }

@@ -103,6 +103,8 @@ struct BakedLight {
   double rmse = 0;  ///< of it, where that was found
 };
 
+struct ReportedBake;
+
 struct BakeOptions {
   std::vector<MaterialMap> maps;  ///< each in a file of its own
   std::vector<PackedTexture> packed;
@@ -137,6 +139,8 @@ struct BakeOptions {
   std::size_t light_channels = 0;  ///< > 0: multibounce and direct are of another light than an even sky
   std::function<BakedLight(const Surface&)> find_light = {};  ///< which this finds, with so many channels
   Watch watch = {};                                           ///< of the solution
+  /// Where it is set, it writes NAME_report.html, a page for browsers.
+  std::function<void(const std::filesystem::path&, const ReportedBake&)> write_report = {};
   std::string projection = {};   ///< text of the .prj that goes beside each Esri grid; empty: none does
   std::string relief_from = {};  ///< how the relief was found, for the sidecar; empty: it was not
   std::string request = {};      ///< what was asked for, as the asker knows it again; stands in the sidecar

@@ -41,9 +41,8 @@ std::uint64_t writing_bytes(int width, const BakeOptions& options) {
 }  // namespace
 
 std::uint64_t bytes_beside_solution(int width, int height, const BakeOptions& options) {
-  return count_texels(width, height) *
-         (kVector * (options.light_channels + options.albedo.varying.size()) + kMap * options.own.size() +
-          kept_local_bytes(options));
+  return count_texels(width, height) * (kVector * (options.light_channels + options.albedo.varying.size()) +
+                                        kMap * options.own.size() + kept_local_bytes(options));
 }
 
 std::uint64_t bake_bytes(int width, int height, const BakeOptions& options) {

@@ -168,6 +168,12 @@ void write_sidecar(const std::filesystem::path& path, const BakeOptions& options
                              {.relief = facts.map.relief, .missing = facts.map.missing});
   if (!options.relief_from.empty()) json["map"]["relief_from"] = options.relief_from;
   json["files"] = describe_textures(options, textures, facts.files);
+  if (facts.report) {
+    Json report = describe_file(*facts.report);
+    report["definition"] = "a page for browsers that shows the maps";
+    report["channels"] = Json::array();
+    json["files"].push_back(std::move(report));
+  }
   for (const Json& entry : facts.former) json["files"].push_back(entry);
   if (!options.own.empty()) json["packed_from"] = describe_own(options.own);
   json["conventions"] = describe_conventions(options, facts.map.header);

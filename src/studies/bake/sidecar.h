@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct SidecarFacts {
   std::filesystem::path source;
   const BakedMap& map;
   std::vector<FileRecord> files = {};  ///< the textures, in their order
+  std::optional<FileRecord> report = {};
   nlohmann::ordered_json former = {};  ///< entries for maps of an earlier bake that stay
   std::vector<Warning> warnings;
   double output_seconds = 0;  ///< that writing the textures took

@@ -61,12 +61,15 @@ std::vector<Map> find_means(int width, int height, int channels, int side, const
   std::vector<Map> cells(static_cast<std::size_t>(channels),
                          Map(cells_of(width, side), cells_of(height, side)));
   std::vector<CellMeans> means(cells.size(), CellMeans(width, side));
-  std::vector<float> samples(static_cast<std::size_t>(width) * cells.size());
+  constexpr int kStrip = 16;  // rows that are asked for at once
+  const std::size_t row_size = static_cast<std::size_t>(width) * cells.size();
+  std::vector<float> samples(row_size * kStrip);
   for (int row = 0; row < height; ++row) {
-    rows(row, 1, samples.data());
+    if (row % kStrip == 0) rows(row, std::min(kStrip, height - row), samples.data());
+    const float* const begin = samples.data() + row_size * static_cast<std::size_t>(row % kStrip);
     const bool ends = row % side == side - 1 || row == height - 1;
     for (std::size_t c = 0; c < cells.size(); ++c) {
-      means[c].add(samples.data() + c, channels);
+      means[c].add(begin + c, channels);
       if (ends) means[c].finish(&cells[c](row / side, 0));
     }
   }
