@@ -7,8 +7,10 @@ set datafile separator ','
 set multiplot layout 1,2
 set xlabel 'half-angle of the cone α_v, degrees'
 set ylabel 'between bent normal and normal θ_v, degrees'
-set xrange [2:90]
-set yrange [2:90]
+set xrange [0:90]
+set yrange [0:90]
+set xtics 15
+set ytics 15
 set size ratio 1
 set key off
 set palette defined (0 '#f7fbff', 0.5 '#6baed6', 1 '#08306b')

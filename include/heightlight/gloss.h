@@ -31,7 +31,8 @@ void check_view(const Vector3& view);
 struct SpecularOptions {
   Gloss gloss = {};
   Vector3 view = {0, 0, 1};  ///< toward the viewer, who is far away; world axes, z > 0
-  int rays = 256;            ///< per receiver, 16 … 65536, as the lobe sends light
+  int rays = 256;        ///< per receiver, 16 … 65536, as the lobe sends light; 0: as many as `error` wants
+  double error = 0.002;  ///< RMSE wanted, where rays is 0
   std::uint64_t seed = 1;
   Watch watch = {};
 };
@@ -40,12 +41,14 @@ struct SpecularOptions {
 struct SpecularOcclusion {
   Map occlusion;    ///< S in [0, 1]; NaN where the sample is missing, or faces away from the view
   double rmse = 0;  ///< expected of the texels, from how sixteen parts of each one's rays differ
+  int rays = 0;     ///< per receiver, as they were in the end
 };
 
 /// Finds it by rays into the lobe, each of which stands for what its direction reflects into the view
 /// (visible normals, Heitz 2018). In the open it is 1 to the last bit. Texels that something hides from the
-/// viewer are found like others. The same to the last bit for any number of threads. Throws UsageError for
-/// options outside their range, Cancelled when the watch says so.
+/// viewer are found like others. Where an error is wanted, rays are multiplied until it is kept, or the most
+/// is reached. The same to the last bit for any number of threads. Throws UsageError for options outside
+/// their range, Cancelled when the watch says so.
 SpecularOcclusion specular_occlusion(const Surface& surface, const SpecularOptions& options);
 
 /// Where in the table of GTSO something stands (Jimenez 2016, eq. 30): a cone that stands for what is open,

@@ -9,8 +9,8 @@
 // Closed forms that shade with an ambient occlusion which knows a direction: diffuse light of a sky that is
 // not the same all over, and what a glossy lobe sees. Like forms.h this file needs C++17 and the standard
 // library's mathematics and nothing else, so that an engine may take both alone. Pure functions, of float or
-// double. Each form is stated here and nowhere else, beside its text as a shader function, which serves GLSL
-// and HLSL: $2, $3 and $4 stand for the types of as many floats, $name for a constant.
+// double. Each form is stated here and nowhere else, beside its text as a shader function, in the part of
+// GLSL that is printed in every shading language (shaders.h tells it); $name stands for a constant.
 //
 // Directions are unit vectors in axes of the caller's, the same for all arguments of a call. Angles are in
 // radians.
@@ -101,18 +101,8 @@ Real dot(const NineHarmonics<Real>& a, const NineHarmonics<Real>& b) {
   return sum;
 }
 
-/// z_l, l ≤ 2, of a cone whose directions count by the cosine to its axis: ∫ Y_l0 cosθ dω over it (Jimenez
-/// 2016, eq. 23), of the cosine of its half-angle in [0, 1].
-template <class Real>
-std::array<Real, 3> cone_zonal_harmonics(Real cosine) {
-  const Real squared = cosine * cosine;
-  const Real sine_squared = Real(1) - squared;
-  return {Real(0.88622692545275801) * sine_squared,                                   // √π/2
-          Real(1.0233267079464885) * (Real(1) - cosine * squared),                    // √(3π)/3
-          Real(0.24770795610037571) * sine_squared * (Real(2) + Real(6) * squared)};  // √(5π)/16
-}
-
-/// The same of a cone whose directions all count the same: ∫ Y_l0 dω.
+/// z_l, l ≤ 2, of a cone whose directions all count the same: ∫ Y_l0 dω over it, of the cosine of its
+/// half-angle in [0, 1].
 template <class Real>
 std::array<Real, 3> cap_zonal_harmonics(Real cosine) {
   const Real sine_squared = Real(1) - cosine * cosine;
@@ -121,44 +111,90 @@ std::array<Real, 3> cap_zonal_harmonics(Real cosine) {
           Real(1.9816636488030057) * cosine * sine_squared};  // √(5π)/2
 }
 
+/// Coefficients, each times the factor of its band l = 0, 1, 2.
+template <class Real>
+NineHarmonics<Real> scale_bands(const std::array<Real, 3>& factors, NineHarmonics<Real> harmonics) {
+  for (std::size_t i = 0; i < harmonics.size(); ++i)
+    harmonics[i] = factors[i == 0 ? 0 : i < 4 ? 1 : 2] * harmonics[i];
+  return harmonics;
+}
+
 /// Coefficients of what is symmetric about an axis: √(4π/(2l + 1)) z_l Y_lm(axis) (Jimenez 2016, eq. 17).
 template <class Real>
 NineHarmonics<Real> turn_zonal(const std::array<Real, 3>& zonal, const Direction<Real>& axis) {
-  const Real scale[] = {Real(3.5449077018110318) * zonal[0], Real(2.0466534158929770) * zonal[1],
-                        Real(1.5853309190424043) * zonal[2]};  // √(4π), √(4π/3), √(4π/5)
-  NineHarmonics<Real> turned = harmonics_along(axis);
-  for (std::size_t i = 0; i < turned.size(); ++i) turned[i] = scale[i == 0 ? 0 : i < 4 ? 1 : 2] * turned[i];
-  return turned;
+  const std::array<Real, 3> scale = {Real(3.5449077018110318) * zonal[0], Real(2.0466534158929770) * zonal[1],
+                                     Real(1.5853309190424043) * zonal[2]};  // √(4π), √(4π/3), √(4π/5)
+  return scale_bands<Real>(scale, harmonics_along(axis));
 }
 
-/// E/π under a sky of nine coefficients, from a bent normal and its A: the cone that is as open, cosine
-/// weighted about the bent normal (directional GTAO, Jimenez 2016, eqs. 16, 17, 22 and 23). With the normal
-/// and A = 1 it is what an open plane receives. Harmonics ring: it may be a little below 0.
+/// What the cone of visibility about the bent normal passes of each band l = 0, 1, 2 of a sky's harmonics, so
+/// that
+///     E/π = Σ_l passes_l Σ_m L_lm Y_lm(bent normal):
+/// the sums over m are the sky's own bands as seen toward the bent normal, whatever basis they are stored in.
+/// The cone is as open as A, its cosine taken about its axis. With c its half-angle's cosine, the zonal
+/// harmonics ∫ Y_l0 cosθ dω turned, √(4π/(2l + 1)) z_l/π (Jimenez 2016, eqs. 17, 22 and 23), are
+///     A,  2/3 (1 − c³),  A (1 + 3 c²)/4,
+/// where 1 − c³ = A (1 + c + c²)/(1 + c) loses no digits as A goes to 0. Of an open place: 1, 2/3, 1/4.
+template <class Real>
+std::array<Real, 3> cone_bands(SkyViewFactor<Real> sky) {
+  const Real a = clamp_share(sky.value);
+  const Real c = cone_cosine(sky);
+  const Real squared = Real(1) - a;
+  return {a, Real(2.0 / 3.0) * (a * ((Real(1) + c + squared) / (Real(1) + c))),
+          Real(0.25) * (a * (Real(1) + Real(3) * squared))};
+}
+
+inline constexpr const char* kConeBandsShader = R"(vec3 heightlight_cone_bands(float sky) {
+  float a = heightlight_share(sky);
+  float squared = 1.0 - a;
+  float c = sqrt(squared);
+  return vec3(a, 0.666666667 * (a * ((1.0 + c + squared) / (1.0 + c))), 0.25 * (a * (1.0 + 3.0 * squared)));
+}
+)";
+
+/// The same as coefficients, as `bake --maps sh` has them: E/π under a sky is their dot product with the
+/// sky's.
+template <class Real>
+NineHarmonics<Real> cone_harmonics(SkyViewFactor<Real> sky, const Direction<Real>& bent_normal) {
+  return scale_bands(cone_bands(sky), harmonics_along(bent_normal));
+}
+
+/// Nine numbers of a shader's are two vectors of four and the last.
+inline constexpr const char* kConeHarmonicsShader[] = {
+    R"(vec4 heightlight_cone_sh_0_to_3(float sky, vec3 axis) {
+  vec3 bands = heightlight_cone_bands(sky);
+  return vec4(0.282094792 * bands.x, 0.488602512 * bands.y * axis.y, 0.488602512 * bands.y * axis.z,
+              0.488602512 * bands.y * axis.x);
+}
+)",
+    R"(vec4 heightlight_cone_sh_4_to_7(float sky, vec3 axis) {
+  vec3 bands = heightlight_cone_bands(sky);
+  return bands.z * vec4(1.09254843 * axis.x * axis.y, 1.09254843 * axis.y * axis.z,
+                        0.946174696 * axis.z * axis.z - 0.315391565, 1.09254843 * axis.x * axis.z);
+}
+)",
+    R"(float heightlight_cone_sh_8(float sky, vec3 axis) {
+  vec3 bands = heightlight_cone_bands(sky);
+  return 0.546274215 * bands.z * (axis.x * axis.x - axis.y * axis.y);
+}
+)"};
+
+/// E/π under a sky of nine coefficients, from a bent normal and its A (directional GTAO, Jimenez 2016, eqs.
+/// 16, 17, 22 and 23). With the normal and A = 1 it is what an open plane receives. Harmonics ring: it may be
+/// a little below 0.
 template <class Real>
 Real directional_irradiance(const NineHarmonics<Real>& sky_light, SkyViewFactor<Real> sky,
                             const Direction<Real>& bent_normal) {
-  return Real(1 / kPiOfForms) *
-         dot(sky_light, turn_zonal(cone_zonal_harmonics(cone_cosine(sky)), bent_normal));
+  return dot(sky_light, cone_harmonics(sky, bent_normal));
 }
 
-inline constexpr FormText kDirectionalText{
-    "directional_gtao", "sum over l, m of L_lm sqrt(4 pi/(2 l + 1)) z_l(A) Y_lm(b) / pi",
-    "Jimenez 2016 eqs. 16, 17, 22, 23",
-    R"(// Irradiance E/pi under a sky of nine harmonics, from a bent normal (unit) and its A: the cone that is as open,
-// cosine weighted about the bent normal (Jimenez 2016, eqs. 16, 17, 22 and 23). sky_light: coefficients of red,
-// green and blue in the order Y00, Y1-1, Y10, Y11, Y2-2, Y2-1, Y20, Y21, Y22, in the axes of the bent normal.
-$3 heightlight_directional_irradiance($3 sky_light[9], float sky, $3 bent) {
-  float c2 = 1.0 - heightlight_share(sky);
-  float s2 = 1.0 - c2;
-  float z1 = 0.325735008 * (1.0 - sqrt(c2) * c2);
-  float z2 = 0.136568554 * s2 * (2.0 + 6.0 * c2);
-  return 0.282094792 * s2 * sky_light[0] +
-         z1 * (bent.y * sky_light[1] + bent.z * sky_light[2] + bent.x * sky_light[3]) +
-         z2 * (bent.x * bent.y * sky_light[4] + bent.y * bent.z * sky_light[5] + bent.x * bent.z * sky_light[7] +
-               0.5 * (bent.x * bent.x - bent.y * bent.y) * sky_light[8] +
-               0.288675135 * (3.0 * bent.z * bent.z - 1.0) * sky_light[6]);
+/// Of one channel.
+inline constexpr const char* kDirectionalShader =
+    R"(float heightlight_directional_irradiance(vec4 light_0_to_3, vec4 light_4_to_7, float light_8, float sky, vec3 axis) {
+  return dot(light_0_to_3, heightlight_cone_sh_0_to_3(sky, axis)) +
+         dot(light_4_to_7, heightlight_cone_sh_4_to_7(sky, axis)) + light_8 * heightlight_cone_sh_8(sky, axis);
 }
-)"};
+)";
 
 // What a glossy lobe sees of the sky
 // -----------------------------------------------------------------------------------
@@ -172,25 +208,58 @@ Real cap_solid_angle(Real half_angle) {
 }
 
 /// Solid angle, sr, that two cones of half-angles a and b in [0, π/2] share whose axes are d apart, in [0,
-/// π]. By Gauss and Bonnet: where the circles cross, with ψ the angle between their radii there and φ_a, φ_b
-/// half of the turn about each axis that the lens takes,
-///     2π − 2ψ − 2 φ_a cos a − 2 φ_b cos b
-/// (Oat and Sander 2007; Mazonka 2012). Errs by some 10⁻⁸ near where the circles touch.
+/// π]. Where the circles cross, each axis sees the crossings a turn 2φ apart, and axes and crossings make two
+/// spherical triangles of sides a, b, d and of excess E each: the sectors of both caps cover the triangles
+/// twice, so that the lens is
+///     2 φ_a (1 − cos a) + 2 φ_b (1 − cos b) − 2 E.
+/// Angles are found from their halves, which loses no digits where circles touch or a cone is narrow.
 template <class Real>
 Real shared_solid_angle(Real a, Real b, Real d) {
-  using std::cos;
+  using std::atan2;
   using std::sin;
+  using std::sqrt;
+  using std::tan;
   const Real smaller = a < b ? a : b;
-  if (smaller == Real(0) || a + b < d) return Real(0);
-  if (d < a + b - Real(2) * smaller) return cap_solid_angle(smaller);
-  const Real cos_a = cos(a), cos_b = cos(b), cos_d = cos(d);
-  const Real sin_a = sin(a), sin_b = sin(b), sin_d = sin(d);
-  const Real between = angle_of_cosine((cos_d - cos_a * cos_b) / (sin_a * sin_b));
-  const Real turn_a = angle_of_cosine((cos_b - cos_a * cos_d) / (sin_a * sin_d));
-  const Real turn_b = angle_of_cosine((cos_a - cos_b * cos_d) / (sin_b * sin_d));
-  const Real shared = Real(2) * (Real(kPiOfForms) - between - turn_a * cos_a - turn_b * cos_b);
+  if (!(d < a + b)) return Real(0);
+  if (!(a + b - Real(2) * smaller < d)) return cap_solid_angle(smaller);
+  const Real half = Real(0.5) * (a + b + d);
+  const Real whole = sin(half);
+  const Real beyond_a = sin(half - a), beyond_b = sin(half - b), beyond_d = sin(half - d);
+  const auto root = [](Real square) { return sqrt(square < Real(0) ? Real(0) : square); };
+  const Real turn_a = Real(2) * atan2(root(beyond_a * beyond_d), root(whole * beyond_b));
+  const Real turn_b = Real(2) * atan2(root(beyond_b * beyond_d), root(whole * beyond_a));
+  const Real tangents = tan(Real(0.5) * a) * tan(Real(0.5) * b);
+  const Real near = beyond_a * beyond_b;
+  const Real far = whole * beyond_d;
+  const Real excess =
+      Real(2) * atan2(Real(2) * tangents * root(near * far), near + far + tangents * (far - near));
+  const Real shared =
+      (turn_a * cap_solid_angle(a) + turn_b * cap_solid_angle(b)) / Real(kPiOfForms) - Real(2) * excess;
   return shared < Real(0) ? Real(0) : shared;
 }
+
+inline constexpr const char* kSharedSolidAngleShader =
+    R"(float heightlight_shared_solid_angle(float a, float b, float d) {
+  float sine_a = sin(0.5 * a);
+  float sine_b = sin(0.5 * b);
+  float smaller = min(sine_a, sine_b);
+  if (d >= a + b) { return 0.0; }
+  if (d <= abs(a - b)) { return 12.5663706 * smaller * smaller; }
+  float around = 0.5 * (a + b + d);
+  float short_of = 0.5 * ((1.57079633 - a) + (1.57079633 - b) + (3.14159265 - d));
+  float whole = sin(min(around, short_of));
+  float beyond_a = sin(around - a);
+  float beyond_b = sin(around - b);
+  float beyond_d = sin(around - d);
+  float turn_a = atan2(sqrt(max(beyond_a * beyond_d, 0.0)), sqrt(max(whole * beyond_b, 0.0)));
+  float turn_b = atan2(sqrt(max(beyond_b * beyond_d, 0.0)), sqrt(max(whole * beyond_a, 0.0)));
+  float tangents = tan(0.5 * a) * tan(0.5 * b);
+  float near = beyond_a * beyond_b;
+  float far = whole * beyond_d;
+  float excess = atan2(2.0 * tangents * sqrt(max(near * far, 0.0)), near + far + tangents * (far - near));
+  return max(8.0 * (turn_a * sine_a * sine_a + turn_b * sine_b * sine_b) - 4.0 * excess, 0.0);
+}
+)";
 
 /// u of the cone that stands for a lobe.
 struct LobeConeConstants {
@@ -216,57 +285,70 @@ Real cone_cone_occlusion(SkyViewFactor<Real> sky, Real apart, Real roughness,
   return Real(1) < share ? Real(1) : share;
 }
 
-inline constexpr FormText kConeConeText{
-    "cone_cone", "shared solid angle of the cones over the lobe's", "Jimenez 2016 eqs. 34, 35",
-    R"(float heightlight_angle(float cosine) { return acos(min(max(cosine, -1.0), 1.0)); }
-
-// What a glossy lobe sees of the sky: the share of the lobe's cone about the mirrored view that the cone of
-// openness about the bent normal covers (Jimenez 2016, eqs. 34 and 35). apart: angle between the two axes.
-// roughness: alpha of GGX.
-float heightlight_cone_cone(float sky, float apart, float roughness) {
-  float a = heightlight_angle(sqrt(1.0 - heightlight_share(sky)));
-  float b = heightlight_angle(pow($share, 0.5 * roughness * roughness));
-  float half_sine = sin(0.5 * b);
-  float lobe = 12.5663706 * half_sine * half_sine;
-  if (apart >= a + b) return 0.0;
-  if (apart <= b - a) return (1.0 - cos(a)) * 6.28318531 / lobe;
-  if (apart <= a - b) return 1.0;
-  float lens = 6.28318531 - 2.0 * heightlight_angle((cos(apart) - cos(a) * cos(b)) / (sin(a) * sin(b))) -
-                 2.0 * cos(a) * heightlight_angle((cos(b) - cos(a) * cos(apart)) / (sin(a) * sin(apart))) -
-                 2.0 * cos(b) * heightlight_angle((cos(a) - cos(b) * cos(apart)) / (sin(b) * sin(apart)));
-  return heightlight_share(lens / lobe);
+inline constexpr const char* kConeConeShader =
+    R"(float heightlight_cone_cone(float sky, float apart, float roughness) {
+  float a = heightlight_share(sky);
+  float open = atan2(sqrt(a), sqrt(1.0 - a));
+  float r = min(max(roughness, 0.01), 1.0);
+  float half_sine = sqrt(0.5 - 0.5 * pow($share, 0.5 * r * r));
+  float lobe = 2.0 * atan2(half_sine, sqrt(1.0 - half_sine * half_sine));
+  float shared_part = heightlight_shared_solid_angle(open, lobe, apart);
+  return heightlight_share(shared_part / (12.5663706 * half_sine * half_sine));
 }
-)"};
+)";
 
-/// Where the table of GTSO (SpecularTable in gloss.h, the file of specular-table) is to be read. It is a 3D
-/// texture of $side × $side × $side² texels, whose layers run over the roughness first, then over the view's
-/// angle: linear filtering of two places, mixed.
-inline constexpr FormText kTableText{
-    "gtso", "table of eq. 30 by cone, angle, roughness and view", "Jimenez 2016 eq. 30",
-    R"(float heightlight_falloff(float widths) { return widths / sqrt(1.0 + widths * widths); }
-
-// What a glossy lobe sees of the sky, by the table gtso.ktx of $side^4 values (Jimenez 2016, eq. 30). With
-//     $4 p = heightlight_table_place(sky, apart, roughness, view_cosine);
-// it is mix(a, b, heightlight_table_weight(view_cosine)) of the table, filtered linearly, at a: p.xyz, b: p.xyw.
-// apart: angle between bent normal and mirrored view; view_cosine: n.v; roughness: alpha of GGX.
-$4 heightlight_table_place(float sky, float apart, float roughness, float view_cosine) {
-  float cone = acos(sqrt(1.0 - heightlight_share(sky)));
-  float width = 2.0 * max(roughness, 1e-4);
-  float begin = heightlight_falloff(-cone / width);
-  float span = heightlight_falloff((3.14159265 - cone) / width) - begin;
-  float y = (heightlight_falloff((apart - cone) / width) - begin) / span;
-  float view = acos(heightlight_share(view_cosine)) / 1.57079633 * ($side.0 - 1.0);
-  float layer = min(floor(view), $side.0 - 2.0) * $side.0 + sqrt(heightlight_share(roughness)) * ($side.0 - 1.0);
-  float x = cone / 1.57079633;
-  return $4((x * ($side.0 - 1.0) + 0.5) / $side.0, (y * ($side.0 - 1.0) + 0.5) / $side.0,
-              (layer + 0.5) / ($side.0 * $side.0), (layer + $side.0 + 0.5) / ($side.0 * $side.0));
+/// How GGX's lobe falls off across a straight edge so many of its widths away, from −1 to 1.
+template <class Real>
+Real lobe_falloff(Real widths) {
+  using std::sqrt;
+  return widths / sqrt(Real(1) + widths * widths);
 }
 
-float heightlight_table_weight(float view_cosine) {
-  float view = acos(heightlight_share(view_cosine)) / 1.57079633 * ($side.0 - 1.0);
-  return view - min(floor(view), $side.0 - 2.0);
+inline constexpr const char* kFalloffShader = R"(float heightlight_falloff(float widths) {
+  return widths * inversesqrt(1.0 + widths * widths);
 }
-)"};
+)";
+
+/// The second axis of GTSO's table (SpecularTable in gloss.h): how the lobe falls off toward the edge of the
+/// cone, scaled so that angles from 0 to π between the cone's axis and the mirrored view are 0 to 1.
+template <class Real>
+struct TableApart {
+  Real begin, span;
+  Real half_angle, width;
+
+  /// `roughness` > 0.
+  TableApart(Real cone_half_angle, Real roughness) : half_angle(cone_half_angle), width(Real(2) * roughness) {
+    begin = lobe_falloff(-half_angle / width);
+    span = lobe_falloff((Real(kPiOfForms) - half_angle) / width) - begin;
+  }
+
+  Real place(Real apart) const { return (lobe_falloff((apart - half_angle) / width) - begin) / span; }
+};
+
+/// Where that table is to be read. It is a 3D texture of side × side × side² texels, whose layers run over
+/// the roughness first, then over the view's angle: linear filtering of two places, mixed.
+inline constexpr const char* kTablePlaceShader =
+    R"(vec4 heightlight_table_place(float sky, float apart, float roughness, float view_cosine, float side) {
+  float a = heightlight_share(sky);
+  float cone = atan2(sqrt(a), sqrt(1.0 - a));
+  float r = min(max(roughness, 0.005), 1.0);
+  float begin = heightlight_falloff(-0.5 * cone / r);
+  float span = heightlight_falloff((3.14159265 - cone) * 0.5 / r) - begin;
+  float y = (heightlight_falloff((apart - cone) * 0.5 / r) - begin) / span;
+  float c = heightlight_share(view_cosine);
+  float view = atan2(sqrt((1.0 - c) * (1.0 + c)), c) * 0.636619772 * (side - 1.0);
+  float layer = min(floor(view), side - 2.0) * side + sqrt(r) * (side - 1.0) + 0.5;
+  return vec4((cone * 0.636619772 * (side - 1.0) + 0.5) / side, (y * (side - 1.0) + 0.5) / side,
+              layer / (side * side), (layer + side) / (side * side));
+}
+)";
+inline constexpr const char* kTableWeightShader =
+    R"(float heightlight_table_weight(float view_cosine, float side) {
+  float c = heightlight_share(view_cosine);
+  float view = atan2(sqrt((1.0 - c) * (1.0 + c)), c) * 0.636619772 * (side - 1.0);
+  return view - min(floor(view), side - 2.0);
+}
+)";
 
 /// Lagarde's empirical form: (n·v + A)^(2^(−16 r − 1)) − 1 + A, cut to [0, 1] (Lagarde and de Rousiers 2014,
 /// listing 26). It knows no direction but the view's.
@@ -279,14 +361,12 @@ Real lagarde_occlusion(SkyViewFactor<Real> sky, Real view_cosine, Real roughness
   return clamp_share(pow(view_cosine + a, power) - Real(1) + a);
 }
 
-inline constexpr FormText kLagardeText{
-    "lagarde", "(n.v + A)^(2^(-16 r - 1)) - 1 + A, in [0, 1]", "Lagarde and de Rousiers 2014",
-    R"(// Lagarde and de Rousiers 2014. view_cosine: n.v; roughness: alpha of GGX.
-float heightlight_lagarde(float sky, float view_cosine, float roughness) {
+inline constexpr const char* kLagardeShader =
+    R"(float heightlight_lagarde(float sky, float view_cosine, float roughness) {
   float a = heightlight_share(sky);
-  return heightlight_share(pow(view_cosine + a, exp2(-16.0 * roughness - 1.0)) - 1.0 + a);
+  return heightlight_share(pow(heightlight_share(view_cosine) + a, exp2(-16.0 * roughness - 1.0)) - 1.0 + a);
 }
-)"};
+)";
 
 // GGX
 // -----------------------------------------------------------------------------------------------------------
@@ -306,6 +386,17 @@ Real schlick(Real reflectance, Real cosine) {
   const Real squared = rest * rest;
   return reflectance + (Real(1) - reflectance) * squared * squared * rest;
 }
+
+/// Both of a direction of the lobe, of a reflectance of 0.04.
+inline constexpr const char* kLobeWeightShader =
+    R"(float heightlight_lobe_weight(float roughness, float light_cosine, float facet_cosine) {
+  float r = min(max(roughness, 0.005), 1.0);
+  float rest = 1.0 - heightlight_share(facet_cosine);
+  float squared = light_cosine * light_cosine;
+  float shadowing = 2.0 * light_cosine / (light_cosine + sqrt(squared + r * r * (1.0 - squared)));
+  return (0.04 + 0.96 * rest * rest * rest * rest * rest) * shadowing;
+}
+)";
 
 /// A direction that GGX mirrors the view into.
 template <class Real>
@@ -353,6 +444,26 @@ GgxDirection<Real> mirror_visible_normal(const Direction<Real>& view, Real rough
           cosine};
 }
 
+/// Direction and facet_cosine.
+inline constexpr const char* kLobeDirectionShader =
+    R"(vec4 heightlight_lobe_direction(vec3 view, float roughness, float u, float v) {
+  float r = min(max(roughness, 0.005), 1.0);
+  vec3 seen = normalize(vec3(r * view.x, r * view.y, view.z));
+  float level = sqrt(seen.x * seen.x + seen.y * seen.y);
+  vec3 across = vec3(1.0, 0.0, 0.0);
+  if (level > 0.0) { across = vec3(-seen.y / level, seen.x / level, 0.0); }
+  vec3 along = cross(seen, across);
+  float radius = sqrt(u);
+  float x = radius * cos(6.28318531 * v);
+  float share = 0.5 + 0.5 * seen.z;
+  float y = (1.0 - share) * sqrt(max(1.0 - x * x, 0.0)) + share * radius * sin(6.28318531 * v);
+  vec3 n = x * across + y * along + sqrt(max(1.0 - x * x - y * y, 0.0)) * seen;
+  vec3 facet = normalize(vec3(r * n.x, r * n.y, max(n.z, 0.0)));
+  float cosine = dot(view, facet);
+  return vec4(2.0 * cosine * facet - view, cosine);
+}
+)";
+
 /// Two unit vectors that complete a normal (z ≥ 0) to a right-handed frame (Duff et al. 2017).
 template <class Real>
 struct NormalFrame {
@@ -374,6 +485,17 @@ struct NormalFrame {
             d.x * tangent.z + d.y * bitangent.z + d.z * normal.z};
   }
 };
+
+inline constexpr const char* kTangentShader = R"(vec3 heightlight_tangent(vec3 normal) {
+  float a = -1.0 / (1.0 + normal.z);
+  return vec3(1.0 + normal.x * normal.x * a, normal.x * normal.y * a, -normal.x);
+}
+)";
+inline constexpr const char* kBitangentShader = R"(vec3 heightlight_bitangent(vec3 normal) {
+  float a = -1.0 / (1.0 + normal.z);
+  return vec3(normal.x * normal.y * a, 1.0 + normal.y * normal.y * a, -normal.y);
+}
+)";
 
 /// What GGX's visible normals make of a polygon of directions, vertex by vertex.
 ///
@@ -537,51 +659,27 @@ Real horizon_polygon_occlusion(const Direction<Real>& normal, const Direction<Re
   return clamp_share(seen.value() / open.value());
 }
 
-inline constexpr FormText kHorizonText{
-    "horizons", "share of the lobe's directions that are above stored horizons",
-    "here; visible normals: Heitz 2018",
-    R"(// What a glossy lobe sees of the sky, straight from the horizon map. slope: tangents of the horizon's elevation
-// above the map's plane, at least those of the tangent plane, toward the azimuths 2 pi k/$count from x to y; between
-// two of them the horizon is the great circle through both. normal and view (from the surface) unit, in the
-// same axes, z up; roughness: alpha of GGX. The $samples directions are GGX's visible normals (Heitz 2018), mirrored.
-float heightlight_horizon_occlusion($3 normal, $3 view, float roughness, float slope[$count]) {
-  float a = -1.0 / (1.0 + normal.z);
-  float b = normal.x * normal.y * a;
-  $3 tangent = $3(1.0 + normal.x * normal.x * a, b, -normal.x);
-  $3 bitangent = $3(b, 1.0 + normal.y * normal.y * a, -normal.y);
-  $3 v = $3(dot(view, tangent), dot(view, bitangent), dot(view, normal));
-  $3 seen = normalize($3(roughness * v.x, roughness * v.y, v.z));
-  float flat_length = sqrt(seen.x * seen.x + seen.y * seen.y);
-  $3 across = flat_length > 0.0 ? $3(-seen.y, seen.x, 0.0) / flat_length : $3(1.0, 0.0, 0.0);
-  $3 along = cross(seen, across);
-  float share = 0.5 + 0.5 * seen.z;
+/// $slopes stands for the horizons as arguments, four to a vector, $given for the same as they are passed on.
+inline constexpr const char* kHorizonShader =
+    R"(float heightlight_horizon_occlusion(vec3 normal, vec3 view, float roughness, $slopes) {
+  vec3 tangent = heightlight_tangent(normal);
+  vec3 bitangent = heightlight_bitangent(normal);
+  vec3 seen_from = vec3(dot(view, tangent), dot(view, bitangent), dot(view, normal));
   float whole = 0.0;
   float open = 0.0;
   for (int i = 0; i < $samples; i++) {
-    float radius = sqrt((float(i) + 0.5) / $samples.0);
-    float turn = 6.28318531 * (0.25 + 0.618033989 * float(i));
-    float x = radius * cos(turn);
-    float y = (1.0 - share) * sqrt(max(1.0 - x * x, 0.0)) + share * radius * sin(turn);
-    $3 n = x * across + y * along + sqrt(max(1.0 - x * x - y * y, 0.0)) * seen;
-    $3 facet = normalize($3(roughness * n.x, roughness * n.y, max(n.z, 1e-6)));
-    float cosine = dot(v, facet);
-    $3 light = 2.0 * cosine * facet - v;
-    if (light.z <= 0.0) continue;
-    float rest = 1.0 - min(cosine, 1.0);
-    float weight = (0.04 + 0.96 * rest * rest * rest * rest * rest) * 2.0 /
-                   (1.0 + sqrt(1.0 + roughness * roughness * (1.0 / (light.z * light.z) - 1.0)));
-    whole += weight;
-    $3 d = light.x * tangent + light.y * bitangent + light.z * normal;
-    float sector = 6.28318531 / $count.0;
-    float azimuth = $atan2(d.y, d.x);
-    azimuth = azimuth < 0.0 ? azimuth + 6.28318531 : azimuth;
-    int k = min(int(azimuth / sector), $count - 1);
-    float within = azimuth - sector * float(k);
-    float rise = slope[k] * sin(sector - within) + slope[k == $count - 1 ? 0 : k + 1] * sin(within);
-    if (d.z * sin(sector) >= rise * sqrt(d.x * d.x + d.y * d.y)) open += weight;
+    float turn = fract(0.25 + 0.618033989 * float(i));
+    vec4 light = heightlight_lobe_direction(seen_from, roughness, (float(i) + 0.5) / $samples.0, turn);
+    if (light.z > 0.0) {
+      float weight = heightlight_lobe_weight(roughness, light.z, light.w);
+      vec3 d = light.x * tangent + light.y * bitangent + light.z * normal;
+      whole += weight;
+      if (heightlight_horizon_above(d, $given) >= 0.0) { open += weight; }
+    }
   }
-  return whole > 0.0 ? open / whole : 1.0;
+  if (whole > open) { return open / whole; }
+  return 1.0;
 }
-)"};
+)";
 
 }  // namespace heightlight

@@ -43,6 +43,7 @@ struct ShaderInput {
   double high = 1;
   bool is_clamped = true;  ///< what is outside is taken for the nearer end
   bool is_unit = false;    ///< a vector of length 1
+  bool is_above = false;   ///< its z is not below 0
 };
 
 /// How many floats an argument is.
@@ -67,6 +68,9 @@ struct ShaderFunction {
   /// the last place of 1. Sums, products, quotients and roots are as exact there as in C++; powers,
   /// exponentials and trigonometric functions are not.
   double ulps = 1;
+  /// The share of inputs that may differ by more, since the function jumps there and rounding decides the
+  /// side.
+  double jumps = 0;
 };
 
 /// Constants as fitted, to stand beside the published ones.
@@ -111,14 +115,11 @@ std::string own_shader(const std::vector<ShaderFunction>& own, ShaderLanguage la
 /// The one function that a texture of the two channels A and n needs (kStoredPairShader), with its parts.
 std::string stored_pair_shader(ShaderLanguage language);
 
-/// Values on each side of the table that the text below reads.
-inline constexpr int kShaderTableSide = 16;
-/// Horizons that it takes where the caller has no other number.
+/// Horizons that functions of the list take, four to a vector.
 inline constexpr int kShaderHorizons = 16;
 
-/// Functions, in GLSL or HLSL, that find what a glossy lobe sees of the sky, and diffuse light of a sky that
-/// is not even (occlusion_forms.h): from bent cones, by cones, by Lagarde's form or by the table of GTSO, and
-/// from so many stored horizons, at least 3. They are text of their own, beside the list above.
+/// The functions of the list that find diffuse light of a sky that is not even, and what a glossy lobe sees
+/// of an even one (occlusion_forms.h): from bent cones, or from so many stored horizons, 3 … 360.
 std::string gloss_shader(ShaderLanguage language, int horizons = kShaderHorizons);
 
 }  // namespace heightlight

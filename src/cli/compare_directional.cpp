@@ -63,14 +63,15 @@ void draw_directional(StagedFolder& folder, const DirectionalStudy& study, const
     rendered.push_back({.title = picture.method.empty() ? "truth" : picture.method,
                         .label = picture.method.empty()
                                      ? picture.sky
-                                     : fmt::format("{}, MRSE {:.5f}", picture.sky, picture.mrse),
+                                     : fmt::format("{}, MRSE {:.2g}", picture.sky, picture.mrse),
                         .reflected = exposed_channels(picture.light)});
   }
   std::size_t columns = 1;
   while (columns < rendered.size() && rendered[columns].title != "truth") ++columns;
   plots.draw(folder, {"directional.png"}, [&](const auto& paths) {
     plot_rendered(paths[0], rendered,
-                  {.title = fmt::format("{}: direct light of skies, {:g} E/π", map_name, kSkyExposure),
+                  {.title = fmt::format("{}, a window: direct light of skies, E/π, of which {:g} is shown",
+                                        map_name, kSkyExposure),
                    .columns = columns});
   });
 }

@@ -62,10 +62,10 @@ std::string specular_json(const SpecularRun& run, const LoadedHeightmap& loaded,
   return json_text(json);
 }
 
-/// A row for each roughness, the truth first. What the viewer does not see has the colour of missing texels.
+/// A row for each roughness, the truth first. What the viewer does not see is blue.
 void draw_specular(StagedFolder& folder, const SpecularStudy& study, const std::string& map_name,
                    double elevation, Plots& plots) {
-  constexpr std::array<float, 3> kUnseen{0.25F, 0.05F, 0.19F};  // kMissingColour, linear
+  constexpr std::array<float, 3> kUnseen{0.33F, 0.45F, 0.62F};
   std::vector<RenderedForm> rendered;
   for (const SpecularPicture& picture : study.pictures) {
     rendered.push_back({.title = picture.method.empty() ? "truth" : picture.method,
@@ -81,11 +81,13 @@ void draw_specular(StagedFolder& folder, const SpecularStudy& study, const std::
   std::size_t columns = 1;
   while (columns < rendered.size() && rendered[columns].title != "truth") ++columns;
   plots.draw(folder, {"specular.png"}, [&](const auto& paths) {
-    plot_rendered(paths[0], rendered,
-                  {.title = fmt::format("{}: specular occlusion, seen from {:.0f}° above the plane", map_name,
-                                        elevation),
-                   .quantity = "S",
-                   .columns = columns});
+    plot_rendered(
+        paths[0], rendered,
+        {.title = fmt::format("{}, a window: specular occlusion from 0 (black) to 1, seen from {:.0f}° "
+                              "above the plane; what is hidden from there is blue",
+                              map_name, elevation),
+         .quantity = "S",
+         .columns = columns});
   });
 }
 

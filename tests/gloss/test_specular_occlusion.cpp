@@ -181,6 +181,19 @@ TEST_CASE("the error of specular occlusion is what it says", "[gloss]") {
   CHECK(truth.rmse < 0.2 * found.rmse);
 }
 
+TEST_CASE("specular occlusion takes as many rays as an error wants", "[gloss]") {
+  const Surface surface = build_surface(make_synth_map("brick", 32, Boundary::tile, 0.15));
+  int before = 0;
+  for (const double error : {0.05, 0.004, 0.001}) {
+    const SpecularOcclusion found = specular_occlusion(surface, {.rays = 0, .error = error});
+    CHECK(found.rmse <= error);
+    CHECK(found.rays > before);
+    CHECK(found.occlusion.values == specular_occlusion(surface, {.rays = found.rays}).occlusion.values);
+    before = found.rays;
+  }
+  CHECK_THROWS_AS(specular_occlusion(surface, {.rays = 0, .error = 0}), UsageError);
+}
+
 TEST_CASE("specular occlusion does not depend on threads", "[gloss]") {
   const Surface surface = build_surface(make_rough_map(17, 13, Boundary::open, 0.2, 0.1, 3));
   const auto with_threads = [&](int threads) {

@@ -69,7 +69,6 @@ const std::map<std::string, std::string> kLayerOfPublicHeader = {
     {"georeference.h", "heightmap"},
     {"surface.h", "surface"},
     {"visibility.h", "visibility"},
-    {"visibility_cone.h", "visibility"},
     {"transport.h", "transport"},
     {"curves.h", "curves"},
     {"forms.h", "base"},  // formulas alone, for everybody

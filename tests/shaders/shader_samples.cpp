@@ -26,7 +26,7 @@ using Values = std::vector<float>;
 Values edge_values(const ShaderInput& input, std::size_t number, std::size_t places) {
   if (input.is_unit) {
     const auto& direction = kDirections.at(number);
-    return {direction.begin(), direction.end()};
+    return {direction[0], direction[1], input.is_above ? std::abs(direction[2]) : direction[2]};
   }
   Values values;
   for (int c = 0; c < float_count(input); ++c) {
@@ -39,7 +39,7 @@ Values edge_values(const ShaderInput& input, std::size_t number, std::size_t pla
 Values drawn_values(const ShaderInput& input, std::mt19937& random) {
   const auto draw = [&] { return static_cast<double>(random()) / 4294967296.0; };
   if (input.is_unit) {
-    const double z = 2 * draw() - 1;
+    const double z = input.is_above ? draw() : 2 * draw() - 1;
     const double azimuth = 2 * 3.141592653589793 * draw();
     const double r = std::sqrt(1 - z * z);
     return {static_cast<float>(r * std::cos(azimuth)), static_cast<float>(r * std::sin(azimuth)),

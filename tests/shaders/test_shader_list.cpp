@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <iomanip>
 #include <map>
 #include <set>
 #include <sstream>
@@ -90,6 +92,33 @@ TEST_CASE("a cone's error that shaders tell is that of plots/data/directional_*.
   const std::string error = find_function("heightlight_cone_bands").error;
   CHECK_THAT(error, Contains(told("overcast") + " under an overcast"));
   CHECK_THAT(error, Contains(told("low-sun") + " under a low sun"));
+}
+
+TEST_CASE("errors of gloss that shaders tell are those of plots/data/specular_*.csv", "[shaders]") {
+  const std::map<std::string, std::string> method_of{
+      {"heightlight_cone_cone", "cone-cone, u 0.01"},
+      {"heightlight_lagarde", "Lagarde"},
+      {"heightlight_table_place", "GTSO, table of 16^4"},
+      {"heightlight_horizon_occlusion", "16 horizons, 16 directions"}};
+  for (const auto& [function, method] : method_of) {
+    double least = 1;
+    double most = 0;
+    for (const char* map : {"brick", "ground054", "lakes", "metalwalkway006"}) {
+      std::ifstream file(std::string(HEIGHTLIGHT_SOURCE_DIR "/plots/data/specular_") + map + ".csv");
+      const std::string row = '"' + method + "\",0.13,45,";
+      for (std::string line; std::getline(file, line);) {
+        if (!line.starts_with("exact," + row) && !line.starts_with(',' + row))
+          continue;  // horizons have no input
+        const double rmse = std::stod(line.substr(line.find(row) + row.size()));
+        least = std::min(least, rmse);
+        most = std::max(most, rmse);
+      }
+    }
+    std::ostringstream told;
+    told << std::fixed << std::setprecision(4) << "RMSE " << least << " to " << most;
+    CAPTURE(function);
+    CHECK_THAT(find_function(function).error, Catch::StartsWith(told.str()));
+  }
 }
 
 TEST_CASE("each shader function stands behind those that it calls, once, in every language", "[shaders]") {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -12,13 +13,17 @@ namespace heightlight {
 namespace {
 
 constexpr int kMostLobeRays = 65536;
+constexpr int kFirstLobeRays = 64;  ///< where an error is wanted
 
 void check_specular_options(const SpecularOptions& options) {
   check_gloss(options.gloss);
   check_view(options.view);
-  if (options.rays < kLobeParts || options.rays > kMostLobeRays)
+  if (options.rays == 0) {
+    if (!(options.error > 0)) throw UsageError("error", std::to_string(options.error), "must be above 0");
+  } else if (options.rays < kLobeParts || options.rays > kMostLobeRays) {
     throw UsageError("rays", std::to_string(options.rays),
                      "must be from " + std::to_string(kLobeParts) + " to " + std::to_string(kMostLobeRays));
+  }
 }
 
 /// Sums of one row of texels.
@@ -27,16 +32,14 @@ struct RowErrors {
   std::size_t count = 0;
 };
 
-}  // namespace
-
-SpecularOcclusion specular_occlusion(const Surface& surface, const SpecularOptions& options) {
-  check_specular_options(options);
+SpecularOcclusion look_with_rays(const Surface& surface, const SpecularOptions& options) {
   const RayCaster caster(surface, {.rays = options.rays});
   const LookedLobe lobe{.sampler = ggx_sampler(options.gloss),
                         .view = as_eigen(options.view).cast<double>().normalized(),
                         .rays = options.rays,
                         .seed = options.seed};
   SpecularOcclusion found;
+  found.rays = options.rays;
   found.occlusion = Map(surface.width(), surface.height());
   std::vector<RowErrors> rows(static_cast<std::size_t>(surface.height()));
   Progress progress("specular occlusion", surface.height(), options.watch);
@@ -62,6 +65,27 @@ SpecularOcclusion specular_occlusion(const Surface& surface, const SpecularOptio
   }
   found.rmse = all.count > 0 ? std::sqrt(all.squares / static_cast<double>(all.count)) : 0;
   return found;
+}
+
+/// How many rays to try next, that so many are off an error by. It falls with the root of their number at
+/// least.
+int more_rays(const SpecularOcclusion& found, double error) {
+  const double ratio = found.rmse / error;
+  return std::min(kMostLobeRays, (ratio * ratio > 2 ? 4 : 2) * found.rays);
+}
+
+}  // namespace
+
+SpecularOcclusion specular_occlusion(const Surface& surface, const SpecularOptions& options) {
+  check_specular_options(options);
+  if (options.rays > 0) return look_with_rays(surface, options);
+  SpecularOptions tried = options;
+  tried.rays = kFirstLobeRays;
+  for (;;) {
+    SpecularOcclusion found = look_with_rays(surface, tried);
+    if (found.rmse <= options.error || found.rays >= kMostLobeRays) return found;
+    tried.rays = more_rays(found, options.error);
+  }
 }
 
 }  // namespace heightlight

@@ -9,6 +9,7 @@
 #include "gloss/cone_share.h"
 #include "heightlight/error.h"
 #include "heightlight/gloss.h"
+#include "heightlight/occlusion_forms.h"
 
 namespace heightlight {
 namespace {
@@ -19,42 +20,21 @@ constexpr int kTableSamples = 4096;
 constexpr int kJudgeSamples = 4096;
 constexpr int kLevels = 255;
 
-/// How GGX's lobe falls off across a straight edge so many of its widths away.
-double falloff_of(double widths) { return 0.5 * (1 + widths / std::sqrt(1 + widths * widths)); }
+/// The inverse of lobe_falloff, infinite at the ends −1 and 1.
+double widths_of(double falloff) { return falloff / std::sqrt(std::max(0.0, 1 - falloff * falloff)); }
 
-/// The inverse, infinite at the ends 0 and 1.
-double widths_of(double falloff) {
-  const double q = 2 * falloff - 1;
-  return q / std::sqrt(std::max(0.0, 1 - q * q));
+double apart_at(const TableApart<double>& axis, double place) {
+  return std::clamp(axis.half_angle + axis.width * widths_of(axis.begin + place * axis.span), 0.0,
+                    std::numbers::pi);
 }
-
-/// y of the table for a cone and a roughness: the fall-off, scaled so that β from 0 to π is y from 0 to 1.
-class ApartAxis {
- public:
-  ApartAxis(double half_angle, double roughness)
-      : half_angle_(half_angle),
-        width_(2 * roughness),
-        begin_(falloff_of(-half_angle / width_)),
-        span_(falloff_of((std::numbers::pi - half_angle) / width_) - begin_) {}
-
-  double place(double apart) const { return (falloff_of((apart - half_angle_) / width_) - begin_) / span_; }
-  double apart(double place) const {
-    return std::clamp(half_angle_ + width_ * widths_of(begin_ + place * span_), 0.0, std::numbers::pi);
-  }
-
- private:
-  double half_angle_;
-  double width_;
-  double begin_;
-  double span_;
-};
 
 double roughness_at(double place) { return std::max(place * place, kLeastRoughness); }
 
 /// What the table says at places in [0, 1] of x and y, for a lobe.
 double value_at(const ConeLobe& lobe, double x, double y, double roughness, double view_angle) {
   const double half_angle = x * kRightAngle;
-  return cone_share(lobe, {half_angle, ApartAxis(half_angle, roughness).apart(y), roughness, view_angle});
+  return cone_share(
+      lobe, {half_angle, apart_at(TableApart<double>(half_angle, roughness), y), roughness, view_angle});
 }
 
 /// Between which two of the table's values along an axis, and where.
@@ -100,7 +80,7 @@ double look_up(const SpecularTable& table, const ConeArguments& arguments) {
   const double roughness = std::max(arguments.roughness, kLeastRoughness);
   const std::array<TablePlace, 4> places{
       place_on_axis(arguments.half_angle / kRightAngle, table.side),
-      place_on_axis(ApartAxis(arguments.half_angle, roughness).place(arguments.apart), table.side),
+      place_on_axis(TableApart<double>(arguments.half_angle, roughness).place(arguments.apart), table.side),
       place_on_axis(std::sqrt(roughness), table.side),
       place_on_axis(arguments.view_angle / kRightAngle, table.side)};
   double sum = 0;

@@ -1,7 +1,7 @@
 #include <utility>
 
 #include "heightlight/shaders.h"
-#include "heightlight/visibility_cone.h"
+#include "shaders/gloss_functions.h"
 #include "shaders/shader_literal.h"
 #include "shaders/text_template.h"
 
@@ -209,66 +209,6 @@ std::vector<ShaderFunction> seen_functions(const SeenConstants& constants) {
            }}};
 }
 
-// Cones
-// ------------------------------------------------------------------------------------------------------------
-
-ShaderFunction cone_bands_function() {
-  return {
-      .name = "heightlight_cone_bands",
-      .formula =
-          "What a cone of visibility about the bent normal passes of the bands 0, 1, 2 of a sky's spherical "
-          "harmonics: E/pi = x L0 + y L1 + z L2, where Ll is the sum over m of the sky's coefficients times "
-          "its basis toward the bent normal",
-      .source = "Jimenez et al. 2016, eqs. 17, 22 and 23",
-      .error =
-          "RMSE of E/pi .0037 to .0219 under an overcast sky, .0577 to .1070 under a low sun, on four maps, "
-          "with "
-          "exact A and bent normals",
-      .inputs = {sky_input()},
-      .components = 3,
-      .text = kConeBandsShader,
-      .twin = "cone_bands",
-      .evaluate =
-          [](const float* in, float* out) {
-            const ConeBands<float> bands = cone_bands(Sky(in[0]));
-            out[0] = bands.constant;
-            out[1] = bands.linear;
-            out[2] = bands.quadratic;
-          },
-      .ulps = 2};
-}
-
-/// Coefficients `first` and so many after it.
-ShaderFunction cone_harmonics_function(const std::string& name, int first, int count, const char* text) {
-  return {.name = name,
-          .formula =
-              std::string("The same as coefficient") +
-              (count > 1 ? "s " + std::to_string(first) + " to " : " ") + std::to_string(first + count - 1) +
-              " of nine real harmonics (Y00, Y1-1, Y10, Y11, Y2-2, Y2-1, Y20, Y21, Y22, orthonormal, without "
-              "the Condon-Shortley phase): E/pi is their dot product with the sky's",
-          .source = "Jimenez et al. 2016, eqs. 17, 22 and 23",
-          .error = "as heightlight_cone_bands",
-          .inputs = {sky_input(),
-                     {.name = "axis",
-                      .meaning = "the bent normal, in the axes of the sky's harmonics",
-                      .components = 3,
-                      .low = -1,
-                      .high = 1,
-                      .is_clamped = false,
-                      .is_unit = true}},
-          .components = count,
-          .text = text,
-          .twin = "cone_harmonics",
-          .evaluate =
-              [first, count](const float* in, float* out) {
-                const std::array<double, 9> all =
-                    cone_harmonics(SkyViewFactor(double{in[0]}), {in[1], in[2], in[3]});
-                for (int i = 0; i < count; ++i)
-                  out[i] = static_cast<float>(all[static_cast<std::size_t>(first + i)]);
-              },
-          .ulps = 2};
-}
-
 // The lists
 // --------------------------------------------------------------------------------------------------------
 
@@ -281,10 +221,8 @@ std::vector<ShaderFunction> make_shader_functions() {
                                         cubic_function({}, ""), bounce_sum_function(),
                                         notes_function({}, ""), bounced_function()};
   append(functions, seen_functions({}));
-  append(functions, {stored_pair_function(), cone_bands_function(),
-                     cone_harmonics_function("heightlight_cone_sh_0_to_3", 0, 4, kConeHarmonicsShader[0]),
-                     cone_harmonics_function("heightlight_cone_sh_4_to_7", 4, 4, kConeHarmonicsShader[1]),
-                     cone_harmonics_function("heightlight_cone_sh_8", 8, 1, kConeHarmonicsShader[2])});
+  functions.push_back(stored_pair_function());
+  append(functions, gloss_functions(kShaderHorizons));
   return functions;
 }
 

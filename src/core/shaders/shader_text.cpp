@@ -1,10 +1,13 @@
+#include <algorithm>
 #include <string>
 #include <vector>
 
+#include "base/digits.h"
 #include "heightlight/closed_forms.h"
 #include "heightlight/error.h"
 #include "heightlight/shaders.h"
 #include "heightlight/version.h"
+#include "shaders/gloss_functions.h"
 #include "shaders/shader_print.h"
 
 namespace heightlight {
@@ -29,6 +32,11 @@ constexpr const char* kStoredPairHead =
     "// Irradiance of all bounces over that of an open place, under an even sky, at any albedo: multi_bounce "
     "of the\n"
     "// two channels of a map that heightlight bake --maps ao-n wrote. Stands alone.\n";
+
+constexpr const char* kGlossHead =
+    R"(// What a glossy lobe sees of an even sky (S, 1 = open), and diffuse light of a sky that is not even, from maps of
+// heightlight bake: functions of its shaders command, which has them in one file with all others.
+)";
 
 constexpr const char* kLibraryHead =
     R"(// Irradiance is E/pi, that of an open place being 1. Two kinds of ambient occlusion, both 1 = open, which must not
@@ -82,9 +90,10 @@ std::string print_comment(const std::string& text, const std::string& indent = "
 }
 
 std::string print_range(const ShaderInput& input) {
-  if (input.is_unit) return "a unit vector";
-  const auto whole = [](double value) { return std::to_string(static_cast<int>(value)); };
-  return whole(input.low) + " to " + whole(input.high) + (input.is_clamped ? ", clamped" : "");
+  if (input.is_unit) return std::string("a unit vector") + (input.is_above ? ", z not below 0" : "");
+  constexpr int kDigits = 3;
+  return in_digits(input.low, kDigits) + " to " + in_digits(input.high, kDigits) +
+         (input.is_clamped ? ", clamped" : "");
 }
 
 std::string print_function(const ShaderFunction& function, ShaderLanguage language) {
@@ -96,12 +105,16 @@ std::string print_function(const ShaderFunction& function, ShaderLanguage langua
   return text + print_source(function.text, language);
 }
 
-/// What of the list is called in `text`, and what that calls, in the order of the list.
-std::vector<ShaderFunction> called_in(std::string text) {
+/// What of the list is called in `text`, and what that calls, in the order of the list, but for what is there
+/// already.
+std::vector<ShaderFunction> called_in(std::string text, const std::vector<ShaderFunction>& there = {}) {
   const std::vector<ShaderFunction>& all = shader_functions();
   std::vector<ShaderFunction> called;
   for (auto function = all.rbegin(); function != all.rend(); ++function) {  // callers before what they call
     if (text.find(function->name + '(') == std::string::npos) continue;
+    if (std::any_of(there.begin(), there.end(),
+                    [&](const ShaderFunction& one) { return one.name == function->name; }))
+      continue;
     text += function->text;
     called.insert(called.begin(), *function);
   }
@@ -167,10 +180,14 @@ std::string shader_text(ShaderLanguage language, const ShaderConstants& constant
 std::string own_shader(const std::vector<ShaderFunction>& own, ShaderLanguage language) {
   std::string text;
   for (const ShaderFunction& function : own) text += function.text;
-  std::vector<ShaderFunction> functions = called_in(text);
+  std::vector<ShaderFunction> functions = called_in(text, own);
   for (ShaderFunction& function : functions) function.is_per_channel = false;  // as parts of others
   functions.insert(functions.end(), own.begin(), own.end());
   return print_shader(functions, language);
+}
+
+std::string gloss_shader(ShaderLanguage language, int horizons) {
+  return std::string(kGlossHead) + '\n' + own_shader(gloss_functions(horizons), language);
 }
 
 std::string form_shader(const std::string& name, ShaderLanguage language) {

@@ -146,11 +146,13 @@ void write_shaders(StagedFolder& folder) {
 }
 
 /// Files beside `specular-occlusion`: functions that find it from other maps, and the table that one reads.
+constexpr int kTableSide = 16;
 constexpr std::array kGlossFiles{"specular-occlusion.glsl", "specular-occlusion.hlsl", "gtso.ktx"};
 
 void write_gloss_files(StagedFolder& folder, const BakeOptions& options) {
-  const SpecularTable table = make_specular_table(kShaderTableSide, options.watch);
-  const int horizons = is_wanted(options, MaterialMap::horizon) ? options.horizon_azimuths : kShaderHorizons;
+  const SpecularTable table = make_specular_table(kTableSide, options.watch);
+  const bool are_baked = is_wanted(options, MaterialMap::horizon) && options.horizon_azimuths >= 3;
+  const int horizons = are_baked ? options.horizon_azimuths : kShaderHorizons;
   write_bytes(folder.file(kGlossFiles[0]), gloss_shader(ShaderLanguage::glsl, horizons));
   write_bytes(folder.file(kGlossFiles[1]), gloss_shader(ShaderLanguage::hlsl, horizons));
   write_specular_table(folder.file(kGlossFiles[2]), table);

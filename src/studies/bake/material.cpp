@@ -87,9 +87,12 @@ Material find_material(const Surface& surface, const BakeOptions& options) {
     if (!request.wanted.totals.empty()) request.wanted.direct = material.light.channels;
   }
   if (is_wanted(options, MaterialMap::specular_occlusion))
-    material.specular = specular_occlusion(
-        surface,
-        {.gloss = options.gloss, .view = options.view, .seed = options.seed, .watch = options.watch});
+    material.specular = specular_occlusion(surface, {.gloss = options.gloss,
+                                                     .view = options.view,
+                                                     .rays = 0,
+                                                     .error = options.error,
+                                                     .seed = options.seed,
+                                                     .watch = options.watch});
   material.results = solve(surface, request);
   Stopwatch watch;
   if (request.wanted.seen) material.model_errors = judge_model(material.results);

@@ -189,7 +189,8 @@ void write_sidecar(const std::filesystem::path& path, const BakeOptions& options
     json["gloss"] = {{"roughness_ggx_alpha", options.gloss.roughness},
                      {"reflectance", options.gloss.reflectance},
                      {"view", {options.view.x, options.view.y, options.view.z}},
-                     {"view_axes", "x right, y up the picture, z out of it"}};
+                     {"view_axes", "x right, y up the picture, z out of it"},
+                     {"rays_per_texel", material.specular.rays}};
   if (material.local.scale > 0 || !material.local.curvature.values.empty())
     json["detail"] = {{"gaussian_standard_deviation", material.local.scale}};
   if (is_wanted(options, MaterialMap::displacement))

@@ -17,7 +17,7 @@ NineHarmonics<double> difference(const NineHarmonics<double>& a, const NineHarmo
   return rest;
 }
 
-/// ∫ (n·ω)⁺ Y dω over a cone about z, n turned toward x.
+/// (1/π) ∫ (n·ω)⁺ Y dω over a cone about z, n turned toward x.
 NineHarmonics<double> integrate_cone_cosine(double half_angle, double turn) {
   constexpr int kAround = 256;
   static const std::vector<QuadratureNode> kNodes = gauss_legendre(64);
@@ -30,7 +30,7 @@ NineHarmonics<double> integrate_cone_cosine(double half_angle, double turn) {
       const double azimuth = 2 * std::numbers::pi * (step + 0.5) / kAround;
       const Direction<double> d{sine * std::cos(azimuth), sine * std::sin(azimuth), z};
       const double cosine = std::max(0.0, d.x * std::sin(turn) + d.z * std::cos(turn));
-      const double weight = node.weight * span * 2 * std::numbers::pi / kAround * cosine;
+      const double weight = node.weight * span * 2 / kAround * cosine;
       const NineHarmonics<double> y = harmonics_along(d);
       for (std::size_t i = 0; i < sum.size(); ++i) sum.at(i) += weight * y.at(i);
     }
@@ -60,9 +60,9 @@ std::vector<ConeFormError> judge_cone_forms(int steps) {
     const Direction<double> normal{std::sin(turn), 0, std::cos(turn)};
     const NineHarmonics<double> truth = integrate_cone_cosine(half_angle, turn);
     const double cosine = std::cos(half_angle);
-    const NineHarmonics<double> cone = turn_zonal<double>(cone_zonal_harmonics(cosine), {0, 0, 1});
+    const NineHarmonics<double> cone = cone_harmonics<double>(SkyViewFactor(1 - cosine * cosine), {0, 0, 1});
     const NineHarmonics<double> product = multiply(turn_zonal<double>(cap_zonal_harmonics(cosine), {0, 0, 1}),
-                                                   turn_zonal(cone_zonal_harmonics(0.0), normal));
+                                                   cone_harmonics(SkyViewFactor(1.0), normal));
     errors[static_cast<std::size_t>(i)] = {half_angle, turn,
                                            norm_of(difference(cone, truth)) / norm_of(truth),
                                            norm_of(difference(product, truth)) / norm_of(truth)};

@@ -36,9 +36,8 @@ Real shade_by_bent_normal(const NineHarmonics<Real>& sky, const DiffuseTexel<Rea
 /// Cone, cosine to the normal, and sky, each in nine harmonics (Snyder 2006).
 template <class Real>
 Real shade_by_triple_product(const NineHarmonics<Real>& sky, const DiffuseTexel<Real>& texel) {
-  return Real(1 / kPiOfForms) *
-         triple_product(sky, turn_zonal(cap_zonal_harmonics(cone_cosine(texel.sky)), texel.bent_normal),
-                        turn_zonal(cone_zonal_harmonics(Real(0)), texel.normal));
+  return triple_product(sky, turn_zonal(cap_zonal_harmonics(cone_cosine(texel.sky)), texel.bent_normal),
+                        cone_harmonics(SkyViewFactor<Real>(Real(1)), texel.normal));
 }
 
 /// Directional GTAO.
@@ -50,7 +49,7 @@ Real shade_by_cone(const NineHarmonics<Real>& sky, const DiffuseTexel<Real>& tex
 /// The same of a cone that was found otherwise.
 template <class Real>
 Real shade_by_given_cone(const NineHarmonics<Real>& sky, const DiffuseTexel<Real>& texel, Real cosine) {
-  return Real(1 / kPiOfForms) * dot(sky, turn_zonal(cone_zonal_harmonics(cosine), texel.bent_normal));
+  return directional_irradiance(sky, SkyViewFactor<Real>(Real(1) - cosine * cosine), texel.bent_normal);
 }
 
 /// Names of ways to shade.
