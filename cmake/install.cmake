@@ -1,5 +1,5 @@
 # What `cmake --install` puts where: libraries with their headers, found by find_package(heightlight) and by pkg-config;
-# the program; the licence.
+# the program, with what completes its command lines; the licence.
 include(CMakePackageConfigHelpers)
 
 set(HEIGHTLIGHT_CONFIG_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/heightlight)
@@ -20,6 +20,16 @@ if(HEIGHTLIGHT_FILES)
 endif()
 if(HEIGHTLIGHT_CLI)
   install(TARGETS heightlight_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  # The program writes them itself, so that they know all its options.
+  file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/completions)
+  foreach(shell bash zsh)
+    install(CODE "execute_process(COMMAND $<TARGET_FILE:heightlight_cli> completion ${shell}
+                    OUTPUT_FILE ${PROJECT_BINARY_DIR}/completions/${shell} COMMAND_ERROR_IS_FATAL ANY)")
+  endforeach()
+  install(FILES ${PROJECT_BINARY_DIR}/completions/bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
+          RENAME heightlight)
+  install(FILES ${PROJECT_BINARY_DIR}/completions/zsh DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions
+          RENAME _heightlight)
 endif()
 
 install(EXPORT heightlight NAMESPACE heightlight:: FILE heightlightTargets.cmake DESTINATION ${HEIGHTLIGHT_CONFIG_DIR})

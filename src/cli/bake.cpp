@@ -9,10 +9,12 @@
 
 #include "bake/bake_memory.h"
 #include "base/progress.h"
+#include "base/stopwatch.h"
 #include "cli/albedo.h"
 #include "cli/bake_command.h"
 #include "cli/bake_report.h"
 #include "cli/commands.h"
+#include "cli/json_line.h"
 #include "cli/map_options.h"
 #include "cli/memory_promise.h"
 #include "cli/name_errors.h"
@@ -27,6 +29,7 @@
 #include "files/file_format.h"
 #include "files/image_file.h"
 #include "files/input_file.h"
+#include "files/json_file.h"
 #include "files/printable.h"
 #include "files/staged_output.h"
 #include "heightlight/error.h"
@@ -217,21 +220,51 @@ struct Tally {
   std::vector<std::string> faults;  ///< one line each
 };
 
+/// What the map's sidecar says of it, after it was baked or was found to be there.
+MapLine described_line(const BakeCommand& command, const BakeInput& input, const char* status) {
+  const std::vector<std::string> names = baked_files(input.name, options_for(command, input.path));
+  const nlohmann::json sidecar = read_json(command.folder / names.back());
+  return {.map = input.path,
+          .status = status,
+          .files = paths_in(command.folder, names),
+          .errors = nlohmann::ordered_json(sidecar.value("errors", nlohmann::json())),
+          .warnings = {},
+          .removed = {},
+          .fault = {},
+          .seconds = 0};
+}
+
 void bake_one(const BakeCommand& command, const BakeInput& input, const InputGuard& guard, bool only_one,
               Tally& tally) {
+  Stopwatch watch;
   if (command.skip_existing && is_baked(command, input)) {
     remove_left_behind(command.folder);  // of a process that was killed when all was in place
     ++tally.skipped;
+    if (command.json) print_json_line(described_line(command, input, "skipped"));
     return;
   }
   const BakeOutcome outcome = bake_file(command, input, guard, command.run.quiet || !only_one);
   ++tally.baked;
   tell_warnings(input.path, outcome.warnings);
-  if (!command.run.quiet) report_removed(outcome.removed);
+  if (command.json) {
+    MapLine line = described_line(command, input, "done");
+    line.warnings = warning_texts(outcome.warnings);
+    line.removed = outcome.removed;
+    line.seconds = watch.lap();
+    print_json_line(line);
+  } else if (!command.run.quiet) {
+    report_removed(outcome.removed);
+  }
+}
+
+/// What was wrong with a map, in one line that names it.
+std::string fault_of(const BakeInput& input, const std::exception& error) {
+  const bool names_map = dynamic_cast<const Error*>(&error);
+  return (names_map ? "" : input.path.string() + ": ") + user_message(error);
 }
 
 void report(const BakeCommand& command, const Tally& tally) {
-  if (command.run.quiet) return;
+  if (command.run.quiet || command.json) return;
   fmt::print("{} baked, {} skipped, {} failed; results in {}\n", tally.baked, tally.skipped,
              tally.faults.size(), printable(command.folder));
 }
@@ -274,14 +307,15 @@ void bake(BakeCommand& command) {
     const Watch watch = terminal_watch(command.run.quiet || only_one);
     Progress progress("bake", static_cast<std::int64_t>(inputs.size()), watch);
     for (const BakeInput& input : inputs) {
+      Stopwatch stopwatch;
       try {
         bake_one(command_for(command, input.path), input, guard, only_one, tally);
       } catch (const Cancelled&) {
         throw;
       } catch (const std::exception& error) {
+        tally.faults.push_back(fault_of(input, error));
+        if (command.json) print_json_line(failed_line(input.path, tally.faults.back(), stopwatch.lap()));
         if (only_one) throw;
-        const bool names_map = dynamic_cast<const Error*>(&error);
-        tally.faults.push_back((names_map ? "" : input.path.string() + ": ") + user_message(error));
       }
       progress.add(1);
     }
@@ -421,15 +455,20 @@ void add_bake_command(CLI::App& app) {
       "also write NAME_report.html of each map: one file for any browser, with pictures that zoom and "
       "flip, and the evidence");
   add_run_options(*command, options->run);
-  command->footer(describe_maps() + describe_presets() +
-                  "Each goes into NAME_map.png; NAME_bake.json says what they hold and what they err by.\n"
-                  "Examples:\n"
-                  "  heightlight bake brick.png -o maps --relief 0.05\n"
-                  "  heightlight bake rock.exr -o maps --maps ao,bent-normal,multibounce --albedo '#a0522d'\n"
-                  "  heightlight bake heights/ -o maps --maps ao --max-distance 5% --falloff linear "
-                  "--skip-existing\n"
-                  "  heightlight bake brick.png -o maps --pack R=ao,G=height --depth 8 --normal-y directx\n"
-                  "  heightlight bake rock.png -o maps --preset unreal --input roughness=rock_rough.png");
+  add_json_option(*command, options->json);
+  command->footer(
+      describe_maps() + describe_presets() +
+      "multibounce holds all bounces: albedo * multibounce is the colour under an even sky. Never give\n"
+      "it to an engine that brightens AO again (multi-bounce or coloured AO), nor multiply it by\n"
+      "ao: such an engine wants ao. docs/colour-and-bounces.md tells more.\n"
+      "Each goes into NAME_map.png; NAME_bake.json says what they hold and what they err by.\n"
+      "Examples:\n"
+      "  heightlight bake brick.png -o maps --relief 0.05\n"
+      "  heightlight bake rock.exr -o maps --maps ao,bent-normal,multibounce --albedo '#a0522d'\n"
+      "  heightlight bake heights/ -o maps --maps ao --max-distance 5% --falloff linear "
+      "--skip-existing\n"
+      "  heightlight bake brick.png -o maps --pack R=ao,G=height --depth 8 --normal-y directx\n"
+      "  heightlight bake rock.png -o maps --preset unreal --input roughness=rock_rough.png");
   command->callback([options] { bake(*options); });
 }
 

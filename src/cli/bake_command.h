@@ -30,6 +30,7 @@ struct BakeCommand {
   std::string max_distance;
   std::string falloff = "none";
   bool skip_existing = false;
+  bool json = false;                ///< a line of JSON per map instead of a report
   std::optional<int> windows = {};  ///< bake window by window, of so many texels a side; 0: as memory has it
   std::string pattern;
   std::string reliefs;                    ///< a file, or NAME=RELIEF,…

@@ -13,6 +13,7 @@
 #include <string>
 
 #include "cli/commands.h"
+#include "cli/config_file.h"
 #include "cli/noted_command.h"
 #include "cli/plots.h"
 #include "cli/tell.h"
@@ -82,7 +83,9 @@ void refuse_unknown_command(const CLI::App& app, int count, const char* const* a
 // CLI11 tells usage errors from requests for help by the exit code that it would use.
 int finish_parse(const CLI::App& app, const CLI::ParseError& error) {
   if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);
-  return fail(2, std::string(error.what()) + " (see heightlight --help)");
+  const std::string file = config_file_of(app);
+  return fail(2, std::string(error.what()) + " (see heightlight --help" +
+                     (file.empty() ? ")" : "; options are also those of " + file + ")"));
 }
 
 /// Runs the command, and says what it threw.
@@ -139,6 +142,8 @@ int run_command_line(int argument_count, const char* const* arguments) {
   add_specular_table_command(app);
   add_info_command(app);
   add_dataset_command(app);
+  add_completion_command(app);
+  add_config_options(app);
   return check_printed(run(app, argument_count, arguments));
 }
 

@@ -15,5 +15,6 @@ void add_dataset_command(CLI::App& app);
 void add_compare_command(CLI::App& app);
 void add_fit_command(CLI::App& app);
 void add_shaders_command(CLI::App& app);
+void add_completion_command(CLI::App& app);
 
 }  // namespace heightlight

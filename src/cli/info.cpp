@@ -5,9 +5,12 @@
 #include <memory>
 
 #include "cli/commands.h"
+#include "cli/json_line.h"
 #include "cli/map_options.h"
 #include "cli/memory_promise.h"
+#include "cli/request.h"
 #include "cli/warnings.h"
+#include "files/evidence_json.h"
 #include "files/printable.h"
 
 namespace heightlight {
@@ -91,10 +94,62 @@ void report_map(const Heightmap& map, const EdgeSteps& steps) {
   fmt::print("missing    {} of {} samples ({:.2f} %)\n", missing, map.height.size(), percent);
 }
 
-void run_info(MapOptions& map_options, RunOptions& run_options) {
+/// Whether `bake` takes it for terrain.
+bool is_terrain(const LoadedHeightmap& loaded, const LoadOptions& options) {
+  if (options.boundary == Boundary::tile) return false;
+  return loaded.place || (options.texel && options.boundary == Boundary::open);
+}
+
+nlohmann::ordered_json describe_file(const SourceFacts& facts) {
+  return {{"format", facts.format},
+          {"sample_type", facts.sample_type},
+          {"bits", facts.bits},
+          {"channel", facts.channel},
+          {"channels", facts.channels},
+          {"lowest", facts.lowest},
+          {"highest", facts.highest},
+          {"levels", std::min(facts.levels, kMostLevels)},
+          {"more_levels", facts.levels > kMostLevels},
+          {"is_stretched", facts.is_stretched},
+          {"white_is_zero", facts.white_is_zero},
+          {"no_data", or_null(facts.declared_no_data)}};
+}
+
+nlohmann::ordered_json describe_edges(const EdgeSteps& steps) {
+  return {{"wrap", steps.wraps},
+          {"steps_rms_across_beside_inside",
+           {{"x", {steps.across_x, steps.beside_x, steps.inside_x}},
+            {"y", {steps.across_y, steps.beside_y, steps.inside_y}}}}};
+}
+
+nlohmann::ordered_json describe_place(const Georeference& place) {
+  return {{"cell", {place.cell.x, place.cell.y}},
+          {"in_degrees", place.in_degrees},
+          {"metres", or_null(place.metres)},
+          {"upper_left", or_null(place.corner)},
+          {"system", place.system},
+          {"height_metres", or_null(place.height_metres)}};
+}
+
+void print_json(const std::filesystem::path& path, const LoadedHeightmap& loaded,
+                const LoadOptions& options) {
+  nlohmann::ordered_json json;
+  json["map"] = describe_map(path, loaded.facts.sha256, loaded.map,
+                             {.relief = relief(loaded.map), .missing = count_missing(loaded.map)});
+  json["file"] = describe_file(loaded.facts);
+  json["kind"] = is_terrain(loaded, options) ? "terrain" : "material";
+  json["place"] = loaded.place ? describe_place(*loaded.place) : nlohmann::ordered_json();
+  json["lowest"] = loaded.map.base;
+  json["edges"] = describe_edges(measure_edge_steps(loaded.map.height));
+  json["warnings"] = warning_texts(loaded.warnings);
+  print_json_line(json);
+}
+
+void run_info(MapOptions& map_options, RunOptions& run_options, bool json) {
   apply_run_options(run_options);
   const LoadedHeightmap loaded = keep_promise(
       run_options, [&] { return load_heightmap(map_options.path, map_options.load, run_options.memory); });
+  if (json) return print_json(map_options.path, loaded, map_options.load);
   if (run_options.quiet) return;
   report_file(map_options.path, loaded.facts);
   report_kind(loaded, map_options.load);
@@ -111,6 +166,8 @@ void add_info_command(CLI::App& app) {
   auto run_options = std::make_shared<RunOptions>();
   add_map_options(*command, *map_options);
   add_run_options(*command, *run_options);
+  auto json = std::make_shared<bool>(false);
+  command->add_flag("--json", *json, "all of it as one line of JSON");
   command->footer(
       "Lengths and heights are in the map's world unit. Edges wrap when steps across them are like those "
       "beside them or inside.\n"
@@ -121,7 +178,7 @@ void add_info_command(CLI::App& app) {
       "terrain\n"
       "  heightlight info scan.tif --texel 50 --boundary open --no-data -9999\n"
       "  heightlight info scan.exr --channel Z");
-  command->callback([map_options, run_options] { run_info(*map_options, *run_options); });
+  command->callback([map_options, run_options, json] { run_info(*map_options, *run_options, *json); });
 }
 
 }  // namespace heightlight

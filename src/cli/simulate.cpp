@@ -4,13 +4,17 @@
 #include <string>
 
 #include "base/byte_size.h"
+#include "base/stopwatch.h"
 #include "cli/commands.h"
+#include "cli/json_line.h"
 #include "cli/reach_options.h"
 #include "cli/report_facts.h"
 #include "cli/simulation.h"
 #include "cli/terminal_watch.h"
+#include "cli/user_message.h"
 #include "cli/warnings.h"
 #include "files/printable.h"
+#include "heightlight/error.h"
 
 namespace heightlight {
 namespace {
@@ -39,6 +43,54 @@ void report(const SimulateOptions& options, const Simulation& simulation) {
       "most)\n",
       evidence.energy->sum_max_error, options.bounces, evidence.energy->tail_mean, evidence.energy->tail_max);
   fmt::print("results in {}\n", printable(options.folder));
+}
+
+/// What the maps err by, as far as that was found.
+nlohmann::ordered_json errors_of(const Evidence& evidence) {
+  nlohmann::ordered_json errors;
+  if (!evidence.total_checks.empty()) {
+    errors["sky_view_factor_rmse"] = evidence.total_checks[0].sky_rmse;
+    errors["irradiance_total_rmse"] = evidence.total_checks[0].total_rmse;
+  } else if (evidence.sky_rmse) {
+    errors["sky_view_factor_rmse"] = *evidence.sky_rmse;
+  }
+  return errors;
+}
+
+void print_result(const SimulateOptions& options, const Simulation& simulation) {
+  std::vector<std::string> names;
+  for (const FileRecord& file : simulation.files) names.push_back(file.name);
+  names.emplace_back("summary.json");
+  print_json_line(MapLine{.map = options.map.path,
+                          .status = "done",
+                          .files = paths_in(options.folder, names),
+                          .errors = errors_of(simulation.evidence),
+                          .warnings = warning_texts(simulation.warnings),
+                          .removed = simulation.removed,
+                          .fault = {},
+                          .seconds = simulation.seconds.total});
+}
+
+void simulate(SimulateOptions& options, bool json) {
+  apply_run_options(options.run);
+  check_simulate_options(options);
+  check_load_options(options.map.load);
+  check_albedo(options.albedo);
+  Plots plots;
+  Stopwatch watch;
+  try {
+    const Simulation simulation = simulate_map(options, plots, terminal_watch(options.run.quiet));
+    if (json) {
+      tell_warnings(options.map.path, simulation.warnings);
+      print_result(options, simulation);
+    } else {
+      report(options, simulation);
+    }
+  } catch (const Error& error) {
+    if (json) print_json_line(failed_line(options.map.path, user_message(error), watch.lap()));
+    throw;
+  }
+  plots.check();
 }
 
 }  // namespace
@@ -72,6 +124,8 @@ void add_simulate_command(CLI::App& app) {
       ->check(CLI::IsMember(falloff_names()));
   add_report_option(*command, options->report);
   add_run_options(*command, options->run);
+  auto json = std::make_shared<bool>(false);
+  add_json_option(*command, *json);
   command->footer(
       "Examples:\n"
       "  heightlight simulate brick.png -o brick                         a tiling material, relief a tenth "
@@ -79,15 +133,7 @@ void add_simulate_command(CLI::App& app) {
       "  heightlight simulate rock.exr -o rock --relief 0.3 --albedo 0.6,0.4,0.3\n"
       "  heightlight simulate dem.tif -o dem                             terrain, as its file tells of it\n"
       "  heightlight simulate dem.tif -o dem --sun 135,30 --albedo 0.9   sun on snow");
-  command->callback([options] {
-    apply_run_options(options->run);
-    check_simulate_options(*options);
-    check_load_options(options->map.load);
-    check_albedo(options->albedo);
-    Plots plots;
-    report(*options, simulate_map(*options, plots, terminal_watch(options->run.quiet)));
-    plots.check();
-  });
+  command->callback([options, json] { simulate(*options, *json); });
 }
 
 }  // namespace heightlight

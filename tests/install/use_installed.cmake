@@ -63,6 +63,10 @@ expect("README.md: holds text")
 
 run(${prefix}/bin/heightlight --version)
 expect("^[0-9]+\\.[0-9]+\\.[0-9]+")
+foreach(completion bash-completion/completions/heightlight zsh/vendor-completions/_heightlight)
+  file(READ ${prefix}/share/${completion} output)
+  expect("--skip-existing")
+endforeach()
 
 # The core alone: no image library, no plots, no JSON, no command line; and no names of stb's anywhere.
 file(GLOB_RECURSE core ${prefix}/*/libheightlight_core.a)

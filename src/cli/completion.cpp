@@ -1,0 +1,23 @@
+#include <fmt/core.h>
+
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/completion_script.h"
+
+namespace heightlight {
+
+void add_completion_command(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("completion", "Print what lets a shell complete this program's options");
+  auto shell = std::make_shared<std::string>();
+  command->add_option("SHELL", *shell, "bash or zsh")->required()->check(CLI::IsMember({"bash", "zsh"}));
+  command->footer(
+      "cmake --install puts both where shells find them. By hand:\n"
+      "  heightlight completion bash > ~/.local/share/bash-completion/completions/heightlight\n"
+      "  heightlight completion zsh > DIR/_heightlight                  DIR of zsh's $fpath");
+  command->callback(
+      [&app, shell] { fmt::print("{}", *shell == "bash" ? bash_completion(app) : zsh_completion(app)); });
+}
+
+}  // namespace heightlight
