@@ -297,7 +297,8 @@ void check_local_options(const BakeOptions& options) {
 const std::vector<MaterialMapName>& material_maps() {
   static const std::vector<MaterialMapName> kMaps = with_definitions(
       {{MaterialMap::ao, "ao", "ambient occlusion, 1 = open"},
-       {MaterialMap::multibounce, "multibounce", "irradiance of all bounces at the albedo, 1 = unoccluded"},
+       {MaterialMap::multibounce, "multibounce",
+        "irradiance of all bounces at the albedo, 1 = unoccluded: to be multiplied, once"},
        {MaterialMap::direct, "direct", "direct irradiance of --sun, --sky or --direct, before any bounce"},
        {MaterialMap::bent_normal, "bent-normal", "mean direction of the sky that is seen"},
        {MaterialMap::bent_cone, "bent-cone", "the same, with the half-angle of a cone in alpha"},

@@ -183,7 +183,12 @@ void write_sidecar(const std::filesystem::path& path, const BakeOptions& options
     if (options.light_channels > 0) {
       json["light"] = {{"of", material.light.description}, {"direct_rmse", material.light.rmse}};
     }
-    json["bounces"] = {{"gathered", evidence.bounces}, {"then", "the rest, to convergence"}};
+    json["bounces"] = {
+        {"gathered", evidence.bounces},
+        {"then", "the rest, to convergence"},
+        {"use",
+         "colour = albedo * multibounce * the light of an open place, in linear numbers; all bounces are "
+         "in it: not for what brightens AO again or bounces light once more"}};
   }
   if (is_wanted(options, MaterialMap::specular_occlusion))
     json["gloss"] = {{"roughness_ggx_alpha", options.gloss.roughness},
