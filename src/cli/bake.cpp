@@ -438,6 +438,9 @@ void add_bake_command(CLI::App& app) {
       ->expected(0, 1)
       ->default_val(0)
       ->type_name("SIDE");
+  command->add_flag(
+      "--sheet", options->sheet,
+      "one more file, NAME_sheet.png: heights, ao, bent normals, bounces and a lit sphere, labelled");
   command
       ->add_option(
           "--window", options->window,

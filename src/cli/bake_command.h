@@ -33,6 +33,7 @@ struct BakeCommand {
   bool json = false;                ///< a line of JSON per map instead of a report
   std::optional<int> windows = {};  ///< bake window by window, of so many texels a side; 0: as memory has it
   std::string pattern;
+  bool sheet = false;                     ///< a picture of each material
   std::string reliefs;                    ///< a file, or NAME=RELIEF,…
   std::vector<NamedRelief> relief_table;  ///< what it says
   std::string match;                      ///< a normal or AO map whose relief is to be found

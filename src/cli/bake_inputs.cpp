@@ -34,7 +34,8 @@ bool names_other_map(const std::string& name) {
       "normals",   "nor",        "nrm",         "ao",         "occlusion", "rough",    "roughness",
       "gloss",     "glossiness", "metal",       "smoothness", "metalness", "metallic", "spec",
       "specular",  "opacity",    "emission",    "emissive",   "arm",       "orm",      "preview",
-      "thumbnail", "render",     "multibounce", "packed",     "curvature", "cavity"};
+      "thumbnail", "render",     "multibounce", "packed",     "curvature", "cavity",   "convexity",
+      "concavity", "sheet"};
   bool other = false;
   for (const std::string& word : words_of(name)) {
     if (is_word_for_heights(word)) return false;

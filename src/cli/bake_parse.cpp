@@ -1,3 +1,6 @@
+#include <functional>
+
+#include "bake/material.h"
 #include "cli/albedo.h"
 #include "cli/bake_command.h"
 #include "cli/bake_report.h"
@@ -8,6 +11,7 @@
 #include "files/projection_text.h"
 #include "files/terrain_file.h"
 #include "heightlight/error.h"
+#include "plot/material_sheet.h"
 #include "visibility/reach_table.h"
 
 namespace heightlight {
@@ -35,6 +39,20 @@ TextureDepth parse_depth(const std::string& text, TextureFormat format, bool is_
          : text == "16"   ? TextureDepth::uint16
          : text == "half" ? TextureDepth::half
                           : TextureDepth::real;
+}
+
+/// Draws the sheet of the map of that name.
+std::function<Image<Rgb8>(const Material&, const Albedo&)> sheet_of(const std::string& name,
+                                                                    const BakeOptions& options) {
+  return [name, y_down = options.y_down](const Material& material, const Albedo& albedo) {
+    return draw_material_sheet({.surface = *material.surface,
+                                .occlusion = material.results.sky_view_factor,
+                                .first_moment = material.results.moments.first,
+                                .totals = material.totals,
+                                .albedo = albedo,
+                                .name = name,
+                                .y_down = y_down});
+  };
 }
 
 }  // namespace
@@ -86,6 +104,7 @@ BakeOptions options_for(const BakeCommand& command, const std::filesystem::path&
   options.projection = read_projection_text(map);
   options.relief_from = command.relief_from;
   if (command.report) options.write_report = write_bake_report;
+  if (command.sheet) options.draw_sheet = sheet_of(map.stem().string(), options);
   return options;
 }
 

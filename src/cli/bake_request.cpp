@@ -52,6 +52,7 @@ std::string request_of(const BakeCommand& command, const BakeOptions& options, c
   if (is_wanted(options, MaterialMap::specular_occlusion))
     request["gloss"] = command.roughness + ' ' + command.view;
   if (const std::string pack = pack_key(command.pack, options); !pack.empty()) request["packing"] = pack;
+  if (command.sheet) request["sheet"] = true;
   if (options.normal_strength != 1) request["normal_strength"] = options.normal_strength;
   if (!command.detail_scale.empty()) request["detail_scale"] = command.detail_scale;
   if (is_wanted(options, MaterialMap::displacement))

@@ -170,6 +170,8 @@ std::vector<std::string> checked_files(const std::string& name, const BakeOption
 
 std::string report_file(const std::string& name) { return name + "_report.html"; }
 
+std::string sheet_file(const std::string& name) { return name + "_sheet.png"; }
+
 /// A folder that is ready to take a bake. All arguments must outlive it.
 class StagedBake {
  public:
@@ -189,6 +191,10 @@ class StagedBake {
                       .former = std::move(former_),
                       .warnings = find_warnings(map.warnings, map.header, evidence, options_)};
     write_textures(textures, values, map);
+    if (options_.draw_sheet) {
+      const std::string sheet = sheet_file(target_.name);
+      write_png(folder_.file(sheet), options_.draw_sheet(map.material, options_.albedo));
+    }
     told.files = folder_.written();  // the shaders that follow are those of every map in the folder
     if (is_wanted(options_, MaterialMap::ao_n)) write_shaders(folder_);
     if (is_wanted(options_, MaterialMap::specular_occlusion)) write_gloss_files(folder_, options_);
@@ -341,6 +347,7 @@ std::vector<std::string> baked_files(const std::string& name, const BakeOptions&
     files.push_back(std::filesystem::path(files[i]).replace_extension(".prj").string());
   for (std::string& file : shared_files(options)) files.push_back(std::move(file));
   if (options.write_report) files.push_back(report_file(name));
+  if (options.draw_sheet) files.push_back(sheet_file(name));
   files.push_back(name + "_bake.json");
   return files;
 }

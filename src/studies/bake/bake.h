@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "files/image_file.h"
 #include "files/staged_output.h"
 #include "heightlight/files.h"
 #include "heightlight/gloss.h"
@@ -103,7 +104,10 @@ struct BakedLight {
   double rmse = 0;  ///< of it, where that was found
 };
 
+struct Material;
 struct ReportedBake;
+
+constexpr std::uint64_t kSheetBytes = std::uint64_t{32} << 20;
 
 struct BakeOptions {
   std::vector<MaterialMap> maps;  ///< each in a file of its own
@@ -138,9 +142,12 @@ struct BakeOptions {
   std::uint64_t memory = ~0ULL;    ///< bytes that all of it may take
   std::size_t light_channels = 0;  ///< > 0: multibounce and direct are of another light than an even sky
   std::function<BakedLight(const Surface&)> find_light = {};  ///< which this finds, with so many channels
-  Watch watch = {};                                           ///< of the solution
   /// Where it is set, it writes NAME_report.html, a page for browsers.
   std::function<void(const std::filesystem::path&, const ReportedBake&)> write_report = {};
+  /// Draws NAME_sheet.png; none where empty. It sees ao, bent normals and multibounce, which are found for
+  /// it, and may take kSheetBytes and two maps of the surface's size.
+  std::function<Image<Rgb8>(const Material&, const Albedo&)> draw_sheet = {};
+  Watch watch = {};              ///< of the solution
   std::string projection = {};   ///< text of the .prj that goes beside each Esri grid; empty: none does
   std::string relief_from = {};  ///< how the relief was found, for the sidecar; empty: it was not
   std::string request = {};      ///< what was asked for, as the asker knows it again; stands in the sidecar
@@ -178,8 +185,6 @@ struct BakeOutcome {
 /// where both a reach and bounces are wanted; toward the azimuths of horizon maps more). No input is
 /// replaced. Throws UsageError for options that contradict each other, Error when it can't be done.
 BakeOutcome bake_material(LoadedHeightmap loaded, const BakeOptions& options, const BakeTarget& target);
-
-struct Material;
 
 /// The same of a material that was found (material.h), by the same options.
 BakeOutcome write_material(const Material& material, const HeightSource& source, const BakeOptions& options,

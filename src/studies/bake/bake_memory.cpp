@@ -49,11 +49,12 @@ std::uint64_t bake_bytes(int width, int height, const BakeOptions& options) {
   const Request request = material_request(options, AzimuthConvention::math);
   const bool has_totals = is_wanted(options, MaterialMap::multibounce);
   const std::size_t channels = has_totals ? std::max(options.albedo.channels(), options.light_channels) : 0;
-  const std::uint64_t writing =
-      count_texels(width, height) * kept_bytes(request.wanted, channels) + writing_bytes(width, options);
+  const std::uint64_t texels = count_texels(width, height);
+  const std::uint64_t kept = texels * kept_bytes(request.wanted, channels);
+  const std::uint64_t drawing = options.draw_sheet ? kept + kSheetBytes + 2 * kMap * texels : 0;
   return bytes_beside_solution(width, height, options) +
-         std::max({estimate_memory(width, height, request), writing,
-                   count_texels(width, height) * (kMap + sizeof(Vector3) + passing_local_bytes(options))});
+         std::max({estimate_memory(width, height, request), kept + writing_bytes(width, options), drawing,
+                   texels * (kMap + sizeof(Vector3) + passing_local_bytes(options))});
 }
 
 }  // namespace heightlight

@@ -41,6 +41,9 @@ AzimuthConvention azimuth_convention(const BakeOptions& options, Boundary bounda
 }
 
 bool is_wanted(const BakeOptions& options, MaterialMap map) {
+  const bool is_on_sheet =
+      map == MaterialMap::ao || map == MaterialMap::bent_normal || map == MaterialMap::multibounce;
+  if (options.draw_sheet && is_on_sheet) return true;
   return std::find(options.maps.begin(), options.maps.end(), map) != options.maps.end() ||
          std::any_of(options.packed.begin(), options.packed.end(), [map](const PackedTexture& pack) {
            return std::any_of(pack.channels.begin(), pack.channels.end(),

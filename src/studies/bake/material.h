@@ -24,7 +24,7 @@ struct Material {
 /// From where the azimuths of horizons count.
 AzimuthConvention azimuth_convention(const BakeOptions& options, Boundary boundary);
 
-/// Whether a map is to be written, alone or packed.
+/// Whether a map is to be found: to be written, alone or packed, or for the sheet.
 bool is_wanted(const BakeOptions& options, MaterialMap map);
 
 /// What solves for the wanted maps; `convention`: from where the azimuths of horizons count.

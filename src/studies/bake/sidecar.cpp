@@ -67,6 +67,10 @@ Json describe_textures(const BakeOptions& options, const std::vector<BakedTextur
     file["channels"] = channels;
     list.push_back(file);
   }
+  if (options.draw_sheet) {
+    list.push_back(describe_file(files.back()));
+    list.back()["definition"] = "a picture of all, sRGB encoded: for the eye";
+  }
   return list;
 }
 

@@ -217,6 +217,7 @@ void check_windowed(const WindowedTask& task) {
     throw UsageError(option, value, std::string(what) + " cannot be baked window by window");
   };
   if (options.light_channels > 0) refuse("light", "", "light of one's own");
+  if (options.draw_sheet) refuse("sheet", "", "a sheet");
   if (!options.albedo.varying.empty()) refuse("albedo", "", "an albedo that varies over the map");
   if (!options.own.empty()) refuse("pack", "", "channels of files of one's own");
   for (const MaterialMap map : {MaterialMap::ao_n, MaterialMap::specular_occlusion, MaterialMap::curvature,
