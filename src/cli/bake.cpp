@@ -79,12 +79,13 @@ void check_batch(const BakeCommand& command, const BakeInputs& listed, const Inp
   for (const BakeInput& input : listed.inputs) {
     const BakeCommand own = command_for(command, input.path);
     check_load_options(own.load);
-    BakeOptions options = options_for(own, input.path);
+    const BakeOptions options = options_for(own, input.path);
+    BakeOptions widest = options;
+    widest.albedo.constant.resize(3);  // how many channels it has, a file may have to tell
+    check_bake_options(widest);
     take_names(input, options, owners);
     for (const OwnChannel& channel : options.own) InputFile{channel.path};
     for (const std::string& name : baked_files(input.name, options)) guard.check(command.folder / name);
-    options.albedo.constant.resize(3);  // how many channels it has, a file may have to tell
-    check_bake_options(options);
   }
 }
 
@@ -119,7 +120,9 @@ BakeOutcome bake_within(const BakeCommand& command, const BakeInput& input, cons
                         .rmse = light.rmse};
     };
   }
-  read_own_channels(options.own, loaded.map, command.run.memory);
+  const std::uint64_t albedo_bytes =
+      options.albedo.varying.size() * loaded.map.height.size() * sizeof(TexelVector::value_type);
+  read_own_channels(options.own, loaded.map, command.run.memory - std::min(command.run.memory, albedo_bytes));
   options.surface = surface_of(command, options, loaded.facts.sha256);
   options.request = request_of(command, options, loaded.facts.sha256, albedo.sha256);
   const BakeTarget target{

@@ -100,7 +100,9 @@ FileText parse_file_text(const std::string& quantity, const std::string& text) {
   FileText file{.path = text};
   file.is_srgb = take_end(file.path, ":srgb");
   if (!file.is_srgb) take_end(file.path, ":linear");
-  if (const std::size_t colon = file.path.rfind(':'); colon != std::string::npos) {
+  const std::size_t colon = file.path.rfind(':');
+  const std::size_t folder = file.path.rfind('/');  // whose name may have colons
+  if (colon != std::string::npos && (folder == std::string::npos || folder < colon)) {
     file.channel = file.path.substr(colon + 1);
     file.path.resize(colon);
     if (file.channel.empty()) throw UsageError(quantity, text, "names no channel behind the colon");

@@ -48,6 +48,7 @@ TEST_CASE("memory is what it was estimated to be", "[cli][slow]") {
        {"ao", "ao,bent-normal,sh", "multibounce", "ao,ao-n,multibounce --albedo 0.9,0.5,0.2"}) {
     check_estimate(folder, "bake", std::string("--maps ") + maps, "_bake.json");
   }
+  check_estimate(folder, "bake", "--pack R=ao,G={stem}.png,B={stem}.png:srgb,A=1-{stem}.png", "_bake.json");
   check_estimate(folder, "simulate", "--bounces 3", "");
 }
 
