@@ -103,7 +103,14 @@ BakeOptions options_for(const BakeCommand& command, const std::filesystem::path&
   if (has_own_light(command.light)) options.light_channels = count_light_channels(command.light);
   options.projection = read_projection_text(map);
   options.relief_from = command.relief_from;
-  if (command.report) options.write_report = write_bake_report;
+  if (command.report) {
+    std::vector<std::filesystem::path> others = light_files(command.light);
+    others.insert(others.begin(), {command.albedo, command.match});
+    for (const OwnChannel& own : options.own) others.push_back(own.path);
+    options.write_report = [others](const std::filesystem::path& path, const ReportedBake& bake) {
+      write_bake_report(path, bake, others);
+    };
+  }
   if (command.sheet) options.draw_sheet = sheet_of(map.stem().string(), options);
   return options;
 }

@@ -121,7 +121,8 @@ std::uint64_t bake_report_bytes(int width, int height, const BakeOptions& option
   return options.write_report ? page_bytes(width, height, 2 * texture_channels(options)) : 0;
 }
 
-void write_bake_report(const std::filesystem::path& path, const ReportedBake& bake) {
+void write_bake_report(const std::filesystem::path& path, const ReportedBake& bake,
+                       const std::vector<std::filesystem::path>& others) {
   const std::string name = printable(bake.target.source.filename());
   const Evidence& evidence = bake.map.material.results.evidence;
   const SolveTimes& seconds = evidence.seconds;
@@ -131,19 +132,20 @@ void write_bake_report(const std::filesystem::path& path, const ReportedBake& ba
           "All maps stand at the same place: flip between them. Values are those before they are "
           "stored in so many bits."};
   for (std::size_t t = 0; t < bake.textures.size(); ++t) add_texture(bake, t, group);
-  const Page page{.title = name + ": material maps",
-                  .what = "The maps that were baked of " + name +
-                          ": what they look like, what their values are, and what they err by.",
-                  .asked = bake_asked(bake),
-                  .reached = reached_facts(evidence),
-                  .cost = cost_facts(seconds.visibility + seconds.transport + seconds.bounces +
-                                         seconds.check + bake.output_seconds,
-                                     evidence.threads),
-                  .command = noted_command(),
-                  .inputs = {input_fact(bake.target.source, bake.map.sha256)},
-                  .warnings = warning_lines(bake.warnings),
-                  .groups = {std::move(group)},
-                  .tables = {file_table(bake)}};
+  Page page{.title = name + ": material maps",
+            .what = "The maps that were baked of " + name +
+                    ": what they look like, what their values are, and what they err by.",
+            .asked = bake_asked(bake),
+            .reached = reached_facts(evidence),
+            .cost = cost_facts(seconds.visibility + seconds.transport + seconds.bounces + seconds.check +
+                                   bake.output_seconds,
+                               evidence.threads),
+            .command = noted_command(),
+            .inputs = {input_fact(bake.target.source, bake.map.sha256)},
+            .warnings = warning_lines(bake.warnings),
+            .groups = {std::move(group)},
+            .tables = {file_table(bake)}};
+  append(page.inputs, input_facts(others));
   write_bytes(path, page_html(page));
 }
 

@@ -171,8 +171,11 @@ void compare_on(const CompareOptions& options, const Surface& surface, LoadedHei
   }
   write_error_pictures(folder, study.comparison.shown);
   draw_comparison(folder, input, plots);
-  if (options.report)
-    write_comparison_report(folder.file(kReportFile), options.map.path, loaded, input, watch.elapsed().wall);
+  if (options.report) {
+    std::vector<PageFact> inputs{input_fact(options.map.path, loaded.facts.sha256)};
+    append(inputs, input_facts({options.albedo, options.forms.file, options.sky}));
+    write_comparison_report(folder.file(kReportFile), inputs, input, watch.elapsed().wall);
+  }
   const std::vector<FileRecord> files = folder.written();
   write_bytes(folder.file("compare.json"), comparison_json(options.map.path, loaded, input, files));
   const std::vector<std::string> removed = folder.commit();

@@ -204,8 +204,8 @@ std::uint64_t comparison_report_bytes(const Surface& surface, std::size_t albedo
   return page_bytes(surface.width(), surface.height(), 1 + methods + albedos);
 }
 
-void write_comparison_report(const std::filesystem::path& path, const std::filesystem::path& map,
-                             const LoadedHeightmap& loaded, const ReportInput& input, double seconds) {
+void write_comparison_report(const std::filesystem::path& path, const std::vector<PageFact>& inputs,
+                             const ReportInput& input, double seconds) {
   Page page{
       .title = input.map_name + ": methods compared",
       .what = "What games' methods and closed formulas for ambient occlusion and bounces err by on " +
@@ -216,8 +216,8 @@ void write_comparison_report(const std::filesystem::path& path, const std::files
       .reached = comparison_reached(input),
       .cost = cost_facts(seconds, input.reference.total_evidence.threads),
       .command = noted_command(),
-      .inputs = {input_fact(map, loaded.facts.sha256)},
-      .warnings = warning_lines(loaded.warnings),
+      .inputs = inputs,
+      .warnings = warning_lines(input.warnings),
       .groups = {method_group(input), form_group(input), truth_group(input)}};
   page.charts.push_back(pareto_chart(input, kSkyQuantity));
   page.charts.push_back(pareto_chart(input, total_quantity(input.scene.albedos.back())));

@@ -164,7 +164,7 @@ std::vector<PageFact> dataset_inputs(const std::vector<ReportedRun>& done) {
 }  // namespace
 
 void write_dataset_report(const std::filesystem::path& path, const std::vector<ReportedRun>& done,
-                          const std::vector<DatasetRun>& runs) {
+                          const std::vector<DatasetRun>& runs, const std::filesystem::path& manifest) {
   Page page{
       .title = fmt::format("A dataset of {} run{}", done.size(), done.size() == 1 ? "" : "s"),
       .what =
@@ -174,9 +174,10 @@ void write_dataset_report(const std::filesystem::path& path, const std::vector<R
       .reached = dataset_reached(done, runs.size() - done.size()),
       .cost = dataset_cost(done),
       .command = noted_command(),
-      .inputs = dataset_inputs(done),
+      .inputs = input_facts({manifest}),
       .charts = bounce_charts(done),
       .tables = {run_table(done)}};
+  append(page.inputs, dataset_inputs(done));
   if (done.size() < runs.size()) page.tables.push_back(failure_table(runs));
   write_bytes(path, page_html(page));
 }

@@ -15,9 +15,9 @@ struct ReportedRun {
   nlohmann::ordered_json summary;
 };
 
-/// Writes the report of a dataset from the runs that are done, and from those that failed (whose fault is
-/// not empty). Throws Error naming curves that cannot be read, OutputError.
+/// Writes the report of a dataset of that manifest from the runs that are done, and from those that failed
+/// (whose fault is not empty). Throws Error naming curves that cannot be read, OutputError.
 void write_dataset_report(const std::filesystem::path& path, const std::vector<ReportedRun>& done,
-                          const std::vector<DatasetRun>& runs);
+                          const std::vector<DatasetRun>& runs, const std::filesystem::path& manifest);
 
 }  // namespace heightlight

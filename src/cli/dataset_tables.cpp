@@ -155,7 +155,7 @@ void write_tables(const Json& origin, const std::vector<DatasetRun>& runs, const
     }
   });
   write_bytes(staged.file("costs.csv"), costs);
-  if (with_report) write_dataset_report(staged.file(kReportFile), reported, runs);
+  if (with_report) write_dataset_report(staged.file(kReportFile), reported, runs, inputs.front());
   Json all = origin;
   all["runs"] = done;
   all["failed"] = failed;

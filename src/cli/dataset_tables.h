@@ -8,7 +8,8 @@
 
 namespace heightlight {
 
-/// Writes into the folder, from its origin (describe_origin) and from the folders of the runs that are done,
+/// `inputs` are the files that the job reads, its manifest first. Writes into the folder, from its origin
+/// (describe_origin) and from the folders of the runs that are done,
 ///  `dataset.csv`   run, map, relief_share, boundary, options, and the columns of curves.csv: all curves,
 ///  tidy; `dataset.json`  what every run came from and how far to trust it, and why those that failed did;
 ///  `costs.csv`     seconds and links of every run, which differ from one making to the next;

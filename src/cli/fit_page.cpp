@@ -63,17 +63,17 @@ std::vector<PageFact> fit_reached(const FitReport& report) {
                       "of several materials)",
        .tone = is_left_out(report) ? Tone::good : Tone::bad});
   facts.push_back({.name = "Judged by", .value = judged_unit(report)});
-  for (const std::size_t albedo : {std::size_t{1}, kMiddle, std::size_t{8}}) {
-    const std::vector<const JudgedForm*> forms = sorted_forms(report, albedo);
-    if (forms.empty()) continue;
-    facts.push_back(
-        {.name = fmt::format("Best form at albedo {:g}", judged_albedos()[albedo]),
-         .value = fmt::format("{}: RMSE {:.4f}", form_name(*forms[0]), forms[0]->errors[albedo].rms())});
-  }
-  for (const Floor& floor : report.floors) {
-    facts.push_back({.name = "No function of " + floor.inputs + " errs by less, at albedo 0.5, than",
-                     .value = fmt::format("{:.4f}", floor.rms[kMiddle])});
-  }
+  const std::vector<const JudgedForm*> forms = sorted_forms(report, kMiddle);
+  const auto add_best = [&](const char* name, auto&& wanted) {
+    const auto best = std::find_if(forms.begin(), forms.end(), wanted);
+    if (best == forms.end()) return;
+    facts.push_back({.name = name,
+                     .value = fmt::format("{}: RMSE {:.4f}\n{}", form_name(**best),
+                                          (*best)->errors[kMiddle].rms(), (*best)->formula)});
+  };
+  add_best("Best form at albedo 0.5", [](const JudgedForm*) { return true; });
+  add_best("Best of those that AO alone is told",
+           [](const JudgedForm* form) { return form->extra == ExtraInput::none && !form->both_kinds; });
   return facts;
 }
 
@@ -174,6 +174,24 @@ PageTable judged_table(const FitReport& report) {
   return table;
 }
 
+PageTable floor_table(const FitReport& report) {
+  PageTable table{
+      .title = "How good any formula could be",
+      .about =
+          "The RMSE of E/π below which no function of these inputs can come, by albedo ρ: the spread "
+          "of texels that have the same inputs.",
+      .columns = {{"inputs"}},
+      .rows = {}};
+  for (const std::size_t k : kToldAlbedos)
+    table.columns.push_back({fmt::format("ρ = {:g}", judged_albedos()[k])});
+  for (const Floor& floor : report.floors) {
+    std::vector<PageCell> row{{floor.inputs}};
+    for (const std::size_t k : kToldAlbedos) row.push_back(number_cell(floor.rms[k], 3));
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
 PageTable parameter_table(const FitReport& report) {
   PageTable table{
       .title = "The parameters",
@@ -235,6 +253,7 @@ void write_fit_page(const std::filesystem::path& path, const FitReport& report,
       .inputs = fit_inputs(curves),
       .charts = {albedo_chart(report), occlusion_chart(report)},
       .tables = {judged_table(report), parameter_table(report), map_table(report)}};
+  if (!report.floors.empty()) page.tables.insert(page.tables.begin() + 1, floor_table(report));
   for (const FittedPanel& panel : fitted_panels(report)) page.charts.push_back(fitted_chart(panel));
   write_bytes(path, page_html(page));
 }

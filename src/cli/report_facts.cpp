@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <system_error>
 
 #include "base/byte_size.h"
 #include "cli/warnings.h"
+#include "files/image_file.h"
 #include "files/printable.h"
 #include "solve/solver.h"
 
@@ -121,6 +123,16 @@ std::vector<PageFact> cost_facts(double seconds, int threads) {
 
 PageFact input_fact(const std::filesystem::path& path, const std::string& sha256) {
   return {.name = printable(path), .value = "SHA-256 " + sha256};
+}
+
+std::vector<PageFact> input_facts(const std::vector<std::filesystem::path>& paths) {
+  std::vector<PageFact> facts;
+  std::error_code ignored;
+  for (const std::filesystem::path& path : paths) {
+    if (std::filesystem::is_regular_file(path, ignored))
+      facts.push_back(input_fact(path, sha256_of_file(path)));
+  }
+  return facts;
 }
 
 std::vector<std::string> warning_lines(const std::vector<Warning>& warnings) {

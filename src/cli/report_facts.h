@@ -36,6 +36,9 @@ std::vector<PageFact> cost_facts(double seconds, int threads);
 /// A file that was read.
 PageFact input_fact(const std::filesystem::path& path, const std::string& sha256);
 
+/// Of these paths those that are files, as they are now: an albedo may be a number. Throws Error.
+std::vector<PageFact> input_facts(const std::vector<std::filesystem::path>& paths);
+
 /// Warnings in the words of the command line.
 std::vector<std::string> warning_lines(const std::vector<Warning>& warnings);
 

@@ -203,6 +203,9 @@ void write_simulation_report(const std::filesystem::path& path, const SimulateOp
             .command = noted_command(),
             .inputs = {input_fact(options.map.path, simulation.facts.sha256)},
             .warnings = warning_lines(simulation.warnings)};
+  std::vector<std::filesystem::path> others = light_files(options.light);
+  others.insert(others.begin(), options.albedo);
+  append(page.inputs, input_facts(others));
   page.groups.push_back(picture_group(options, found));
   for (const BounceCurves& curves : found.curves) page.charts.push_back(bounce_chart(curves));
   page.charts.push_back(count_chart(found.curves));

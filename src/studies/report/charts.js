@@ -2,7 +2,8 @@
 
 const CURVE_COLOURS = ["#1b7fd1", "#e07b00", "#119a6c", "#d64550", "#a565c9", "#7c8a1c", "#c9589c", "#3aa6b9", "#8d6e54",
   "#7d8796"];
-const MARGIN = { left: 56, right: 12, top: 10, bottom: 42 };
+const DECADES = 4; // of logarithmic axes at most
+const MARGIN = { left: 64, right: 12, top: 10, bottom: 42 };
 
 /** Numbers that an axis is marked with. */
 function findTicks(low, high, log) {
@@ -72,7 +73,7 @@ class Chart {
     this.draw();
   }
 
-  /** Extents of all curves, shown or not, so that switching them keeps the axes. */
+  /** Extents of all curves, shown or not, so that switching them keeps the axes; what is too small for them is not drawn. */
   extents() {
     return this.found ??= ["x", "y"].map((axis) => {
       const log = this.chart[`log_${axis}`];
@@ -81,7 +82,7 @@ class Chart {
       let [low, high] = [Infinity, -Infinity];
       for (const value of values) [low, high] = [Math.min(low, value), Math.max(high, value)];
       if (!(low <= high)) return [log ? 0.1 : 0, 1];
-      if (log) return [low / 1.2, high * 1.2];
+      if (log) return [Math.max(low / 1.2, high * 10 ** -DECADES), high * 1.2];
       if (low > 0 && low < 0.3 * high) low = 0;
       return high > low ? [low, high] : [low - 0.5, low + 0.5];
     });
@@ -144,8 +145,8 @@ class Chart {
   }
 
   hasPlace(curve, i) {
-    const { chart } = this;
-    return curve.y[i] !== null && (!chart.log_x || curve.x[i] > 0) && (!chart.log_y || curve.y[i] > 0);
+    const [x, y] = this.extents();
+    return curve.y[i] !== null && curve.x[i] >= x[0] && curve.y[i] >= y[0];
   }
 
   drawLine(curve, i) {

@@ -49,11 +49,22 @@ function offerCopy() {
   command.after(button);
 }
 
+/** Links to all that follows the evidence. */
+function offerContents() {
+  const links = make("nav", { "aria-label": "Contents" });
+  document.querySelectorAll("main > section").forEach((section, i) => {
+    section.id = `part-${i + 1}`;
+    links.append(make("a", { href: `#part-${i + 1}` }, section.querySelector("h2").textContent));
+  });
+  document.querySelector(".cards").after(links);
+}
+
 async function showPage() {
   offerCopy();
   document.querySelectorAll("section.table").forEach(showTable);
   document.querySelectorAll("section.chart").forEach((section) => new Chart(section, takeData(section)));
   for (const section of document.querySelectorAll("section.pictures")) await showPictures(section);
+  offerContents();
   document.documentElement.dataset.ready = "yes";
 }
 showPage();
