@@ -2,7 +2,10 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <istream>
 #include <map>
+#include <sstream>
 
 #include "cli/noted_command.h"
 #include "cli/report_facts.h"
@@ -14,6 +17,30 @@
 
 namespace heightlight {
 namespace {
+
+std::vector<std::string> split_parameters(const std::string& parameters) {
+  std::vector<std::string> parts;
+  std::istringstream stream(parameters);
+  for (std::string part; std::getline(stream >> std::ws, part, ';');) parts.push_back(part);
+  return parts;
+}
+
+/// The method, with as many of its parameters as tell it from the others that are shown.
+std::string short_name(const std::vector<ErrorMap>& shown, const ErrorMap& method) {
+  const auto name_of = [](const ErrorMap& map, std::size_t count) {
+    const std::vector<std::string> parts = split_parameters(map.subtitle);
+    std::string name = map.title;
+    for (std::size_t i = 0; i < std::min(count, parts.size()); ++i) name += (i == 0 ? " " : ", ") + parts[i];
+    return name;
+  };
+  const std::size_t most = split_parameters(method.subtitle).size();
+  for (std::size_t count = 0; count < most; ++count) {
+    const std::string name = name_of(method, count);
+    const auto same = [&](const ErrorMap& other) { return name_of(other, count) == name; };
+    if (std::count_if(shown.begin(), shown.end(), same) == 1) return name;
+  }
+  return name_of(method, most);
+}
 
 /// A of the reference, and of each method that is shown.
 PictureGroup method_group(const ReportInput& input) {
@@ -31,7 +58,7 @@ PictureGroup method_group(const ReportInput& input) {
   for (const ErrorMap& method : input.comparison.shown) {
     Map values = method.differences;
     for (std::size_t i = 0; i < values.size(); ++i) values.values[i] += truth.values[i];
-    group.pictures.push_back({.name = method.title,
+    group.pictures.push_back({.name = short_name(input.comparison.shown, method),
                               .about = fmt::format("{} ({}); RMSE {:.4f}, bias {:+.4f}.", method.title,
                                                    method.subtitle, method.error.rmse, method.error.bias),
                               .preview = make_preview({&values})});
@@ -82,11 +109,12 @@ PageChart pareto_chart(const ReportInput& input, const std::string& quantity) {
     PageCurve& curve = by_method[name];
     curve.name = name;
     curve.points.push_back({row.cost.core, row.error.rmse});
+    curve.labels.push_back(parameters_and_variant(row));
   }
   PageChart chart{.title = "Time against error: " + quantity,
                   .about =
                       "Each dot is a method with its parameters: farther down is more exact, farther left is "
-                      "cheaper. The table of all measurements says which is which.",
+                      "cheaper. Point at a dot to see which it is.",
                   .x = "core-seconds",
                   .y = "RMSE",
                   .log_x = true,

@@ -22,7 +22,8 @@ PageFact error_fact(const std::string& name, double error, const Evidence& evide
   if (wanted <= 0) return {.name = name, .value = fmt::format("{:.2g}", error)};
   const bool missed = error > kMissed * wanted;
   return {.name = name,
-          .value = fmt::format("{:.2g} of {:g} wanted", error, wanted),
+          .value = fmt::format("{:.2g} ({:g} wanted{})", error, wanted,
+                               error > wanted && !missed ? ", which the check cannot tell apart" : ""),
           .tone = missed ? Tone::bad : Tone::good};
 }
 

@@ -30,7 +30,7 @@ PagePicture light_picture(const std::string& name, const std::string& about, con
           .about = about,
           .file = file,
           .channels = channel_names(maps),
-          .preview = make_preview(maps)};
+          .preview = preview_of_channels(maps)};
 }
 
 PictureGroup picture_group(const SimulateOptions& options, const ReportedSimulation& found) {

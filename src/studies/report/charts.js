@@ -230,7 +230,8 @@ class Chart {
     if (!curve.shown) return;
     this.svg.append(makeSvg("circle", { cx: this.placeX(curve.x[k]), cy: this.placeY(curve.y[k]), r: 8, fill: "none",
       stroke: this.colour(i), "stroke-width": 2 }));
-    this.readout.textContent = `${curve.name}\n${this.chart.x}: ${inDigits(curve.x[k])}; ${this.chart.y}: ` +
+    const label = curve.labels[k] ? ` (${curve.labels[k]})` : "";
+    this.readout.textContent = `${curve.name}${label}\n${this.chart.x}: ${inDigits(curve.x[k])}; ${this.chart.y}: ` +
       inDigits(curve.y[k]);
   }
 

@@ -51,7 +51,8 @@ struct PictureGroup {
 struct PageCurve {
   std::string name = {};
   std::vector<std::array<double, 2>> points = {};  ///< lines break where y is NaN
-  bool shown = true;                               ///< at first
+  std::vector<std::string> labels = {};  ///< of the points, for their read-out; none, or one for each
+  bool shown = true;                     ///< at first
   bool dashed = false;
   std::optional<std::size_t> colour = {};  ///< curves of one number share it; empty: the curve's own
 };

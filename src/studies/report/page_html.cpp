@@ -83,6 +83,8 @@ bool holds_numbers(const PageTable& table, std::size_t column) {
                      [column](const auto& row) { return row[column].number || row[column].text.empty(); });
 }
 
+constexpr std::size_t kPrintedRows = 60;  // as report.css has it
+
 std::string table_html(const PageTable& table) {
   std::string html = fmt::format(
       "<section class=\"table\">\n<h2>{}</h2>\n<p>{}</p>\n<div class=\"scroll\">"
@@ -98,7 +100,11 @@ std::string table_html(const PageTable& table) {
     for (std::size_t c = 0; c < row.size(); ++c) html += cell_html(row[c], table.columns.at(c).of_cost);
     html += "</tr>\n";
   }
-  return html + "</tbody>\n</table></div>\n</section>\n";
+  html += "</tbody>\n</table></div>\n";
+  if (table.rows.size() > kPrintedRows)
+    html += fmt::format("<p class=\"print-only\">The first {} of {} rows.</p>\n", kPrintedRows,
+                        table.rows.size());
+  return html + "</section>\n";
 }
 
 std::string chart_html(const PageChart& chart) {

@@ -91,6 +91,7 @@ Json describe_chart(const PageChart& chart) {
                       {"shown", curve.shown},
                       {"dashed", curve.dashed},
                       {"colour", curve.colour ? Json(*curve.colour) : Json(nullptr)},
+                      {"labels", curve.labels},
                       {"x", x},
                       {"y", y}});
   }

@@ -134,11 +134,15 @@ class PictureGroup {
       this.readout,
       make("div", { class: "scale" }, this.scaleLow, this.scaleBar, this.scaleHigh, this.scaleText,
         this.missing),
-      this.about,
-      make("p", { class: "keys" }, "Keys: 1 … 9 and ← → flip, space goes back to the picture before, + − 0 zoom, " +
-        "Shift with arrows moves the place that is read. Drag to move; click into the picture, then scroll to zoom; " +
-        "pinch on a phone."));
+      this.about);
+    if (section === document.querySelector("section.pictures")) section.append(this.buildKeys());
     this.listen();
+  }
+
+  buildKeys() {
+    return make("p", { class: "keys" }, "Keys: 1 … 9 and ← → flip, space goes back to the picture before, + − 0 zoom, " +
+      "Shift with arrows moves the place that is read. Drag to move; click into the picture, then scroll to zoom; " +
+      "pinch on a phone.");
   }
 
   buildControls() {

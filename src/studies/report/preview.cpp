@@ -103,7 +103,7 @@ Preview make_preview(const std::vector<const Map*>& maps, int largest) {
                       largest);
 }
 
-Preview make_preview(const std::vector<Map>& maps, int largest) {
+Preview preview_of_channels(const std::vector<Map>& maps, int largest) {
   std::vector<const Map*> pointers;
   for (const Map& map : maps) pointers.push_back(&map);
   return make_preview(pointers, largest);

@@ -28,7 +28,8 @@ Preview make_preview(int width, int height, int channels, const FillRows& rows,
 /// The same of maps of one size, a channel each; at least one.
 Preview make_preview(const std::vector<const Map*>& maps, int largest = kLargestPreview);
 
-Preview make_preview(const std::vector<Map>& maps, int largest = kLargestPreview);
+/// The same of a map's channels.
+Preview preview_of_channels(const std::vector<Map>& maps, int largest = kLargestPreview);
 
 /// Of a map that was thinned out to every `side`-th texel of every `side`-th row.
 Preview picked_preview(const Map& thin, int width, int height, int side);
