@@ -104,8 +104,8 @@ TEST_CASE("bake writes a report of each map, named as its maps are", "[cli][repo
     CHECK_THAT(run_command(again, folder).out, Contains("1 baked"));
   }
   SECTION("window by window") {
-    run("synth cobbles --size 24 -o c.tif", folder);
-    run("bake c.tif -o maps --maps ao --out-of-core 16 --report --quiet", folder);
+    run("synth cobbles --size 96 -o c.tif", folder);
+    run("bake c.tif -o maps --maps ao --out-of-core 64 --report --quiet", folder);
     read_page(folder / "maps/c_report.html");
   }
 }

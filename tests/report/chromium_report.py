@@ -177,7 +177,8 @@ def check_simulation(reader, folder):
     assert reader.chosen(section)[0].startswith("3 ")
     reader.press(" ")
     assert reader.chosen(section)[0].startswith("2 ")
-    reader.press("+", "+", Keys.SHIFT + Keys.ARROW_RIGHT)
+    reader.press("+", "+")
+    ActionChains(reader.driver).key_down(Keys.SHIFT).send_keys(Keys.ARROW_RIGHT).key_up(Keys.SHIFT).perform()
     assert reader.readout(section)[:2] == (place[0] + 1, place[1])
 
     chart = reader.one("section.chart")
@@ -232,7 +233,7 @@ def main():
         def run(*arguments):
             subprocess.run([heightlight, *arguments, "--quiet"], cwd=folder, check=True, stdin=subprocess.DEVNULL)
 
-        subprocess.run([heightlight, "synth", "cobbles", "--size", "40", "-o", "map.exr"], cwd=folder, check=True)
+        subprocess.run([heightlight, "synth", "cobbles", "--size", "32", "-o", "map.exr"], cwd=folder, check=True)
         name = HOSTILE + ".exr"
         shutil.copy(os.path.join(folder, "map.exr"), os.path.join(folder, name))
         run("simulate", name, "-o", "simulated", "--relief", "0.1", "--albedo", "0.7,0.5,0.2", "--report")
