@@ -42,6 +42,7 @@ std::vector<ShownChannels> shown_channels(const BakedTexture& texture) {
       shown.push_back({.first = c, .kind = kind_of(channels[c])});
     }
     c += shown.back().count;
+    if (channels[shown.back().first].quantity == "constant") shown.pop_back();
   }
   return shown;
 }

@@ -53,10 +53,12 @@ void add_sky_check(const SkyCheck& check, const Evidence& evidence, std::vector<
 void add_total_checks(const Evidence& evidence, std::vector<PageFact>& facts) {
   const HorizonCheck& first = evidence.total_checks.front();
   facts.push_back(error_fact("RMSE of the sky view factor", first.sky_rmse, evidence));
-  for (std::size_t i = 0; i < evidence.total_checks.size(); ++i) {
-    const std::string which = evidence.total_checks.size() > 1 ? fmt::format(", albedo {}", i + 1) : "";
-    facts.push_back(error_fact("RMSE of the total" + which, evidence.total_checks[i].total_rmse, evidence));
-  }
+  double worst = 0;
+  for (const HorizonCheck& check : evidence.total_checks) worst = std::max(worst, check.total_rmse);
+  const std::size_t count = evidence.total_checks.size();
+  const std::string name =
+      count == 1 ? "RMSE of the total" : fmt::format("RMSE of the total, the worst of {} albedos", count);
+  facts.push_back(error_fact(name, worst, evidence));
   facts.push_back({.name = "Checked by",
                    .value = fmt::format("exact walks along {} azimuths from {} texels", first.azimuths,
                                         first.receivers)});
@@ -111,7 +113,7 @@ std::vector<PageFact> reached_facts(const Evidence& evidence) {
   for (const EnergyAudit& audit : evidence.audits)
     imbalance = std::max(imbalance, std::abs(audit.found_imbalance));
   if (!evidence.audits.empty())
-    facts.push_back({.name = "Energy that got lost or was made (neither absorbed nor back in the sky)",
+    facts.push_back({.name = "Energy unaccounted for (neither absorbed nor back in the sky)",
                      .value = fmt::format("{:.2g} %", 100 * imbalance)});
   return facts;
 }

@@ -159,7 +159,7 @@ class PictureGroup {
     if (this.reference && this.pictures.length > 1) {
       choice(["Values", `Error against ${this.reference.name}`], (second) => { this.showsError = second; });
     }
-    choice(["Same scale for all", "Own scale"], (second) => { this.ownScale = second; });
+    choice(["Same scale for all", "Full contrast"], (second) => { this.ownScale = second; });
     const zoom = (text, label, act) =>
       make("button", { type: "button", "aria-label": label, click: act }, text);
     controls.append(make("span", {}, zoom("−", "zoom out", () => this.zoom(0.5)),
