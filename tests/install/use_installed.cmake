@@ -76,15 +76,19 @@ file(GLOB_RECURSE files ${prefix}/*/libheightlight_files.a)
 run(${NM} -C -g --defined-only ${files})
 forbid("stbi")
 
-# pkg-config and the licence.
+# pkg-config, which finds the folders wherever they were put; the licence, the notice and man pages.
 file(GLOB_RECURSE pc ${prefix}/*/heightlight-core.pc)
 get_filename_component(pc_folder ${pc} DIRECTORY)
 run(${CMAKE_COMMAND} -E env PKG_CONFIG_PATH=${pc_folder} pkg-config --cflags --libs heightlight-files)
 expect("-lheightlight_files.*-lheightlight_core")
-file(GLOB_RECURSE licence ${prefix}/*/LICENSE)
-if(NOT licence)
-  message(FATAL_ERROR "no licence is installed")
-endif()
+run(${CMAKE_COMMAND} -E env PKG_CONFIG_PATH=${pc_folder} pkg-config --variable=includedir heightlight-core)
+string(STRIP "${output}" include_folder)
+foreach(file ${prefix}/share/doc/heightlight/LICENSE ${prefix}/share/doc/heightlight/NOTICE
+        ${prefix}/share/man/man1/heightlight-simulate.1 ${include_folder}/heightlight/solve.h)
+  if(NOT EXISTS ${file})
+    message(FATAL_ERROR "${file} is not installed")
+  endif()
+endforeach()
 
 # As a part of another project, which has none of the command line's packages.
 set(whole ${BUILD}/tests/install/whole)
