@@ -20,6 +20,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 MARK = re.compile(r"<!--\s*(?:figures:\s*(?P<files>.*?)|(?P<end>/figures))\s*-->")
+CODE = re.compile(r"`[^`]*`")
 FENCE = re.compile(r"\s*(```|~~~)")
 SUPERSCRIPTS = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
 FIGURE = re.compile(
@@ -41,7 +42,7 @@ class Figure(NamedTuple):
 
 def find_figures(line):
     """The figures of a line of prose."""
-    for match in FIGURE.finditer(re.sub(r"`[^`]*`", " ", line)):
+    for match in FIGURE.finditer(line):
         power = int(match["power"] or (match["raised"] or "0").translate(SUPERSCRIPTS))
         decimals = len(match["digits"].partition(".")[2])
         yield Figure(
@@ -97,6 +98,7 @@ class Page:
             return
         if self.is_code:
             return
+        line = CODE.sub("", line)
         at = 0
         for mark in MARK.finditer(line):
             self.check(line_number, line[at : mark.start()])

@@ -51,7 +51,8 @@ class Figures(unittest.TestCase):
         self.assertIn("README.md:2: its figures have no end", figures.check_pages(self.root)[0][0])
 
     def test_figures_outside_of_marks(self):
-        (self.root / "README.md").write_text("9.99 <!-- figures: errors.csv --> .0197 <!-- /figures --> 9.98\n")
+        text = "9.99 <!-- figures: errors.csv --> .0197 <!-- /figures --> 9.98, `<!-- figures: FILE -->` marks them\n"
+        (self.root / "README.md").write_text(text)
         self.assertEqual(figures.check_pages(self.root), ([], 1))
 
 
