@@ -6,8 +6,8 @@ set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME program)
 
 set(HEIGHTLIGHT_CONFIG_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/heightlight)
 set(HEIGHTLIGHT_CORE_HEADERS
-    closed_forms.h curves.h error.h evidence.h forms.h gloss.h heightmap.h image.h occlusion_forms.h screenspace.h shaders.h sky_light.h solve.h sun.h surface.h synth.h
-    terrain_forms.h transport.h visibility.h watch.h)
+    closed_forms.h curves.h error.h evidence.h forms.h gloss.h heightmap.h image.h occlusion_forms.h screenspace.h shaders.h
+    sky_light.h solve.h sun.h surface.h synth.h terrain_forms.h transport.h visibility.h watch.h)
 list(TRANSFORM HEIGHTLIGHT_CORE_HEADERS PREPEND include/heightlight/)
 
 install(TARGETS heightlight_core EXPORT heightlight ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
