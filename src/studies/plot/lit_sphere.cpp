@@ -35,8 +35,8 @@ double sample(const Map& map, double u, double v) {
 /// radius 1.
 std::array<double, 3> shade(const SphereSkin& skin, double x, double y) {
   static const Eigen::Vector3d kLamp = Eigen::Vector3d(-0.55, 0.6, 0.58).normalized();
-  constexpr double kSky = 0.55;
-  constexpr double kLampStrength = 1.5;
+  constexpr double kSky = 0.5;
+  constexpr double kLampStrength = 1.1;
   const Eigen::Vector3d n(x, y, std::sqrt(std::max(0.0, 1 - x * x - y * y)));
   const double longitude = std::atan2(n.x(), n.z());
   const double latitude = std::asin(std::clamp(n.y(), -1.0, 1.0));

@@ -153,7 +153,7 @@ class Sheet {
   void add_panel(const Image<Rgb8>& panel, const std::string& label) {
     const int top = kTitle + (count_ / 2) * (kPanel + kLabel + kGap);
     const int left = kSphere + 2 * kGap + (count_ % 2) * kPanelStep;
-    paste(picture_, top + (kPanel - panel.height) / 2, left + (kPanel - panel.width) / 2, panel);
+    paste(picture_, top + kPanel - panel.height, left + (kPanel - panel.width) / 2, panel);
     draw_text(picture_, top + kPanel + 8, left, label, 2, kBright);
     ++count_;
   }
