@@ -1,6 +1,5 @@
 #include "plot/lit_sphere.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -43,7 +42,8 @@ std::array<double, 3> shade(const SphereSkin& skin, double x, double y) {
   const double u = longitude * 2 / kPi;
   const double v = -latitude * 2 / kPi / skin.proportion;
   const Eigen::Vector3d tangent(std::cos(longitude), 0, -std::sin(longitude));
-  const Eigen::Vector3d bitangent = n.cross(tangent);
+  const Eigen::Vector3d bitangent(n.y() * tangent.z(), n.z() * tangent.x() - n.x() * tangent.z(),
+                                  -n.y() * tangent.x());  // n × tangent, whose y is 0
   const Eigen::Vector3d normal = (sample(skin.normal_x, u, v) * tangent +
                                   sample(skin.normal_y, u, v) * bitangent + sample(skin.normal_z, u, v) * n)
                                      .normalized();
