@@ -22,7 +22,7 @@ namespace heightlight {
 struct FormText {
   const char* name;     ///< as in tables, snake_case
   const char* formula;  ///< plain ASCII
-  const char* source;   ///< seed file and equation, or "here"
+  const char* source;   ///< paper and equation, or "here"
   const char* shader;   ///< functions, the last of which is the form
 };
 
@@ -33,14 +33,14 @@ struct FormConstant {
   double Constants::*value;
 };
 
-/// α, the plain share of the hemisphere's solid angle that sees the sky: the notes' AO (file 004).
+/// α, the plain share of the hemisphere's solid angle that sees the sky: the notes' AO (Patapom).
 template <class Real>
 struct AmbientOcclusion {
   constexpr explicit AmbientOcclusion(Real share) : value(share) {}
   Real value;
 };
 
-/// A = E₀/π, the cosine-weighted share: the AO of files 000 and 002.
+/// A = E₀/π, the cosine-weighted share: the AO of Jimenez et al. 2016 and Umenhoffer et al. 2009.
 template <class Real>
 struct SkyViewFactor {
   constexpr explicit SkyViewFactor(Real share) : value(share) {}
@@ -71,7 +71,7 @@ inline constexpr const char* kShareShader = R"(float heightlight_share(float x) 
 // ----------------------------------------------------------------------
 
 inline constexpr FormText kDirectText{"direct", "A", "AO x pi", ""};
-inline constexpr FormText kDirectAlphaText{"direct_alpha", "alpha", "file 004 eq. 4", ""};
+inline constexpr FormText kDirectAlphaText{"direct_alpha", "alpha", "Patapom, eq. 4", ""};
 
 /// "AO × π": E/π = A, at any ρ. Exact at ρ = 0.
 template <class Real>
@@ -79,16 +79,16 @@ constexpr Real direct_irradiance(SkyViewFactor<Real> sky) {
   return clamp_share(sky.value);
 }
 
-/// The same with the other AO: E/π = α (file 004 eq. 4). Not even exact at ρ = 0.
+/// The same with the other AO: E/π = α (Patapom, eq. 4). Not even exact at ρ = 0.
 template <class Real>
 constexpr Real direct_irradiance(AmbientOcclusion<Real> occlusion) {
   return clamp_share(occlusion.value);
 }
 
-// The notes' F₀, F₁ and τ (file 004)
+// The notes' F₀, F₁ and τ (Patapom)
 // -------------------------------------------------------------------------------
 
-/// Constants of the notes' form (file 004 eqs. 7 and 11); as published unless fitted anew.
+/// Constants of the notes' form (Patapom, eqs. 7 and 11); as published unless fitted anew.
 struct NotesConstants {
   double direct_gain = 0.5;                ///< F₀(α) = α (1 + gain (1 − α)^power)
   double direct_power = 0.75;              ///< below 1, F₀ exceeds 1 near α = 1 whatever the gain
@@ -103,10 +103,10 @@ inline constexpr FormConstant<NotesConstants> kNotesConstants[] = {
     {"first_decay", &NotesConstants::first_decay}};
 
 inline constexpr FormText kNotesDirectText{"notes_direct", "alpha (1 + gain (1 - alpha)^power)",
-                                           "file 004 eq. 7", ""};
+                                           "Patapom, eq. 7", ""};
 inline constexpr FormText kNotesFirstBounceText{
-    "notes_first_bounce", "A alpha (1 - alpha)^1.5 exp(-B alpha^0.25)", "file 004 eq. 11", ""};
-inline constexpr FormText kNotesText{"notes", "F0 + rho F1/(1 - rho tau)", "file 004 eqs. 7, 9 to 12",
+    "notes_first_bounce", "A alpha (1 - alpha)^1.5 exp(-B alpha^0.25)", "Patapom, eq. 11", ""};
+inline constexpr FormText kNotesText{"notes", "F0 + rho F1/(1 - rho tau)", "Patapom, eqs. 7, 9 to 12",
                                      R"(float heightlight_notes$suffix(float alpha, float albedo) {
   float a = heightlight_share(alpha);
   float direct = a * (1.0 + ($direct_gain) * pow(1.0 - a, $direct_power));
@@ -127,7 +127,7 @@ inline constexpr const char* kBounceSumShader =
 }
 )";
 
-/// F₀, file 004 eq. 7: E₀/π as a function of α. As published it exceeds 1, by up to 0.0062, where α > 0.9493.
+/// F₀, Patapom, eq. 7: E₀/π as a function of α. As published it exceeds 1, by up to 0.0062, where α > 0.9493.
 template <class Real>
 Real notes_direct(AmbientOcclusion<Real> occlusion, const NotesConstants& constants = {}) {
   const Real a = clamp_share(occlusion.value);
@@ -135,7 +135,7 @@ Real notes_direct(AmbientOcclusion<Real> occlusion, const NotesConstants& consta
                       std::pow(1 - a, static_cast<Real>(constants.direct_power)));
 }
 
-/// F₁, file 004 eq. 11: E₁/π at ρ = 1 as a function of α.
+/// F₁, Patapom, eq. 11: E₁/π at ρ = 1 as a function of α.
 template <class Real>
 Real notes_first_bounce(AmbientOcclusion<Real> occlusion, const NotesConstants& constants = {}) {
   const Real a = clamp_share(occlusion.value);
@@ -143,7 +143,7 @@ Real notes_first_bounce(AmbientOcclusion<Real> occlusion, const NotesConstants& 
          std::exp(-static_cast<Real>(constants.first_decay) * std::sqrt(std::sqrt(a)));
 }
 
-/// τ, file 004 eq. 9: the ratio of each bounce to the one before it, 1 − F₁/(1 − F₀). Negative for α > 0.764
+/// τ, Patapom, eq. 9: the ratio of each bounce to the one before it, 1 − F₁/(1 − F₀). Negative for α > 0.764
 /// as published. NaN where F₀ ≥ 1, which no geometric series can bring to a sum of 1.
 template <class Real>
 Real notes_ratio(AmbientOcclusion<Real> occlusion, const NotesConstants& constants = {}) {
@@ -152,7 +152,7 @@ Real notes_ratio(AmbientOcclusion<Real> occlusion, const NotesConstants& constan
   return 1 - notes_first_bounce(occlusion, constants) / missing;
 }
 
-/// File 004 eqs. 10 and 12, from F₀, F₁ and ρ: F₀ + ρ F₁/(1 − ρτ). With eq. 9 for τ that is
+/// Patapom, eqs. 10 and 12, from F₀, F₁ and ρ: F₀ + ρ F₁/(1 − ρτ). With eq. 9 for τ that is
 ///     F₀ + ρ F₁ (1 − F₀)/((1 − ρ)(1 − F₀) + ρ F₁),
 /// which loses no digits where F₀ comes near 1. In its domain it lies in [0, 1], rises with ρ and is 1 at ρ =
 /// 1. NaN outside: where F₀ ≥ 1, and where no bounce brings anything at ρ = 1 (ρτ = 1).
@@ -189,11 +189,12 @@ Real notes_total_guarded(AmbientOcclusion<Real> occlusion, Real albedo,
                              albedo);
 }
 
-// Jimenez' two forms (file 000)
+// Jimenez' two forms (Jimenez et al. 2016)
 // ------------------------------------------------------------------------------------
 
 inline constexpr FormText kUniformNeighbourhoodText{
-    "uniform_neighbourhood", "A/(1 - rho (1 - A))", "file 000 eq. 12; file 002 eq. 6",
+    "uniform_neighbourhood", "A/(1 - rho (1 - A))",
+    "Jimenez et al. 2016, eq. 12; Umenhoffer et al. 2009, eq. 6",
     R"(float heightlight_uniform_neighbourhood(float sky, float albedo) {
   float a = heightlight_share(sky);
   float rest = (1.0 - albedo) + albedo * a;
@@ -202,8 +203,8 @@ inline constexpr FormText kUniformNeighbourhoodText{
 }
 )"};
 
-/// File 000 eq. 12: A/(1 − ρ(1 − A)), from taking what is seen to be as bright as the place that sees it. At
-/// A = 0, ρ = 1, where it is 0/0: 1, as along all of ρ = 1.
+/// Jimenez et al. 2016, eq. 12: A/(1 − ρ(1 − A)), from taking what is seen to be as bright as the place that
+/// sees it. At A = 0, ρ = 1, where it is 0/0: 1, as along all of ρ = 1.
 template <class Real>
 constexpr Real uniform_neighbourhood(SkyViewFactor<Real> sky, Real albedo) {
   const Real a = clamp_share(sky.value);
@@ -211,8 +212,8 @@ constexpr Real uniform_neighbourhood(SkyViewFactor<Real> sky, Real albedo) {
   return rest <= 0 ? Real{1} : a / rest;
 }
 
-/// Jimenez' cubic a A³ − b A² + c A with coefficients linear in ρ (file 000 eq. 33); as published unless
-/// fitted anew. He fitted them to three bounces at ρ = 0.1 … 0.9.
+/// Jimenez' cubic a A³ − b A² + c A with coefficients linear in ρ (Jimenez et al. 2016, eq. 33); as published
+/// unless fitted anew. He fitted them to three bounces at ρ = 0.1 … 0.9.
 struct CubicConstants {
   double a_slope = 2.0404, a_offset = -0.3324;
   double b_slope = 4.7951, b_offset = -0.6417;
@@ -224,7 +225,7 @@ inline constexpr FormConstant<CubicConstants> kCubicConstants[] = {
     {"b_slope", &CubicConstants::b_slope}, {"b_offset", &CubicConstants::b_offset},
     {"c_slope", &CubicConstants::c_slope}, {"c_offset", &CubicConstants::c_offset}};
 
-inline constexpr FormText kCubicText{"cubic", "a A^3 - b A^2 + c A", "file 000 eq. 33",
+inline constexpr FormText kCubicText{"cubic", "a A^3 - b A^2 + c A", "Jimenez et al. 2016, eq. 33",
                                      R"(float heightlight_cubic$suffix(float sky, float albedo) {
   float a = heightlight_share(sky);
   float a3 = $a_slope * albedo + ($a_offset);
@@ -244,18 +245,18 @@ constexpr Real cubic_polynomial(SkyViewFactor<Real> sky, Real albedo, const Cubi
   return ((a3 * a - a2) * a + a1) * a;
 }
 
-/// File 000 eq. 33. As published it is below A at ρ = 0, by up to 0.044, and not 1 at ρ = 1 (0.90 at A =
-/// 0.5); it exceeds 1 by up to 10⁻⁴ near A = 1, which is clamped.
+/// Jimenez et al. 2016, eq. 33. As published it is below A at ρ = 0, by up to 0.044, and not 1 at ρ = 1 (0.90
+/// at A = 0.5); it exceeds 1 by up to 10⁻⁴ near A = 1, which is clamped.
 template <class Real>
 constexpr Real cubic_total(SkyViewFactor<Real> sky, Real albedo, const CubicConstants& constants = {}) {
   return clamp_share(cubic_polynomial(sky, albedo, constants));
 }
 
-// Ambient transfer (file 002)
+// Ambient transfer (Umenhoffer et al. 2009)
 // --------------------------------------------------------------------------------------
 
-/// μ of file 002, section 3: how far a surface at `distance` counts as open, √(d/R) up to the radius R > 0, 1
-/// beyond.
+/// μ of Umenhoffer et al. 2009, section 3: how far a surface at `distance` counts as open, √(d/R) up to the
+/// radius R > 0, 1 beyond.
 template <class Real>
 Real fuzzy_openness(Real distance, Real radius) {
   return distance >= radius ? Real{1} : std::sqrt(distance / radius);
@@ -264,8 +265,8 @@ Real fuzzy_openness(Real distance, Real radius) {
 /// How fast the exponential μ rises: σ R, the number of mean free paths up to the radius.
 inline constexpr double kOpennessRate = 4;
 
-/// The exponential μ of file 002, section 2, 1 − exp(−σ d), which its authors leave since it never ends: here
-/// σ is kOpennessRate/R, and it is scaled to be 1 at the radius R > 0 and beyond.
+/// The exponential μ of Umenhoffer et al. 2009, section 2, 1 − exp(−σ d), which its authors leave since it
+/// never ends: here σ is kOpennessRate/R, and it is scaled to be 1 at the radius R > 0 and beyond.
 template <class Real>
 Real exponential_openness(Real distance, Real radius) {
   if (distance >= radius) return Real{1};
@@ -281,9 +282,9 @@ struct Occluder {
   Real albedo;       ///< where it is hit
 };
 
-/// File 002 eqs. 5 and 6: O/(1 − Σ F (1 − μ) ρ), with the obscurance O = A + Σ F μ. With μ = 0 and one albedo
-/// it is uniform_neighbourhood. `occluders`: any range of Occluder<Real> whose form factors sum to 1 − A. 1
-/// where it is 0/0, as there.
+/// Umenhoffer et al. 2009, eqs. 5 and 6: O/(1 − Σ F (1 − μ) ρ), with the obscurance O = A + Σ F μ. With μ = 0
+/// and one albedo it is uniform_neighbourhood. `occluders`: any range of Occluder<Real> whose form factors
+/// sum to 1 − A. 1 where it is 0/0, as there.
 template <class Real, class Range>
 Real ambient_transfer(SkyViewFactor<Real> sky, const Range& occluders) {
   Real obscurance = sky.value;

@@ -12,8 +12,8 @@
 
 // Screen-space methods: what games run, on exactly the surface that the reference uses, seen from straight
 // above and orthographically. The depth buffer is the height map, a pixel is a texel, the view vector is +z,
-// so that a method's difference from the reference is its own error. File 000 defines GTAO, file 002 the
-// ambient transfer, file 001 SSDO.
+// so that a method's difference from the reference is its own error. Jimenez et al. 2016 defines GTAO,
+// Umenhoffer et al. 2009 the ambient transfer, Ritschel et al. 2009 SSDO.
 //
 // All lengths are in world units. Results are the same for any number of threads.
 
@@ -89,7 +89,7 @@ enum class DirectionNoise {
   temporal  ///< six frames, each turned by a sixth of what the spatial noise leaves open, put together
 };
 
-/// GTAO, file 000 algorithms 1 and 2. One slice serves both of its sides.
+/// GTAO, Jimenez et al. 2016, algorithms 1 and 2. One slice serves both of its sides.
 struct GtaoOptions {
   int slices = 3;
   int steps = 3;  ///< per side of a slice
@@ -110,8 +110,8 @@ struct GtaoOptions {
 /// UsageError for options outside their range.
 ScreenSpaceView gtao(const DepthBuffer& depth, const GtaoOptions& options);
 
-/// GTAO of a quarter of the texels, spread back to all by a bilateral filter (file 000, section 4.3). Bent
-/// normals are left out. Throws as gtao does.
+/// GTAO of a quarter of the texels, spread back to all by a bilateral filter (Jimenez et al. 2016,
+/// section 4.3). Bent normals are left out. Throws as gtao does.
 ScreenSpaceView gtao_half_resolution(const DepthBuffer& depth, const GtaoOptions& options);
 
 /// GTAO, and along the same horizons one bounce gathered: a sample that raises the horizon from m to m' is
@@ -120,8 +120,8 @@ ScreenSpaceView gtao_half_resolution(const DepthBuffer& depth, const GtaoOptions
 /// left out. Throws as gtao does.
 ScreenSpaceView gtao_with_bounce(const DepthBuffer& depth, const GtaoOptions& options);
 
-/// HBAO (Bavoil, Sainz and Dimitrov 2008, as file 000 describes it): horizons above the tangent plane's angle
-/// t,
+/// HBAO (Bavoil, Sainz and Dimitrov 2008, as Jimenez et al. 2016 describes it): horizons above the tangent
+/// plane's angle t,
 ///     1 − mean over azimuths of (sin h − sin t),
 /// where every sample that raises the horizon weighs by 1 − (r/R)², r its distance and R the reach. It leaves
 /// out the cosine to the normal: without that weight it converges to α, not to A.
@@ -145,16 +145,16 @@ struct SurfaceAlbedo {
   const Map* map = nullptr;
 };
 
-/// μ of file 002: how far a surface at distance d counts as open, up to R.
+/// μ of Umenhoffer et al. 2009: how far a surface at distance d counts as open, up to R.
 enum class FuzzyMeasure {
   step,        ///< 0: all that is nearer than R hides wholly
   root,        ///< √(d/R)
   exponential  ///< exponential_openness (forms.h)
 };
 
-/// Obscurance and ambient transfer by containment tests (file 002 eqs. 5, 7 and 9). Directions and distances
-/// are n points of a Lloyd-relaxed Poisson disc distribution, the same for all texels but for sixteen turns
-/// about the normal.
+/// Obscurance and ambient transfer by containment tests (Umenhoffer et al. 2009, eqs. 5, 7 and 9). Directions
+/// and distances are n points of a Lloyd-relaxed Poisson disc distribution, the same for all texels but for
+/// sixteen turns about the normal.
 struct AmbientTransferOptions {
   int samples = 16;  ///< n
   int tests = 1;     ///< m, containment tests on the way to each sample
@@ -168,9 +168,9 @@ struct AmbientTransferOptions {
 ScreenSpaceView ambient_transfer(const DepthBuffer& depth, const std::vector<SurfaceAlbedo>& albedos,
                                  const AmbientTransferOptions& options);
 
-/// SSDO (file 001 section 3): N directions, uniform over the hemisphere, each tested at one random distance;
-/// the sky's radiance is taken from the directions found open. Then one bounce from the hidden samples, with
-/// sender areas of π R²/N.
+/// SSDO (Ritschel et al. 2009, section 3): N directions, uniform over the hemisphere, each tested at one
+/// random distance; the sky's radiance is taken from the directions found open. Then one bounce from the
+/// hidden samples, with sender areas of π R²/N.
 struct SsdoOptions {
   int samples = 16;  ///< N
   DirectionNoise noise = DirectionNoise::spatial;
@@ -190,7 +190,7 @@ ScreenSpaceView ssdo(const DepthBuffer& depth, const std::vector<SurfaceAlbedo>&
 double ssdo_solid_angle(const SsdoOptions& options);
 
 /// Direct irradiance E/π under any sky, red, green and blue, the radiance looked up along each open direction
-/// (file 001, eq. 1); NaN where the sample is missing. Throws as ssdo does.
+/// (Ritschel et al. 2009, eq. 1); NaN where the sample is missing. Throws as ssdo does.
 Image<Vector3> ssdo_under_sky(const DepthBuffer& depth, const SkyGrid& sky, const SsdoOptions& options);
 
 /// The role (below) of GTAO at a usual preset.
@@ -204,7 +204,7 @@ struct ScreenSpaceMethod {
   bool shown = false;
   std::string role = {};      ///< of the few that stand at the head of reports: kRoleOfGames, say
   bool finds_totals = false;  ///< for each albedo that it is given
-  int directions = 0;         ///< per texel, of those that file 000's figure 5 shows; 0 of others
+  int directions = 0;         ///< per texel, of those in Jimenez et al. 2016, figure 5; 0 of others
   std::function<void()> prepare =
       {};  ///< makes what a renderer has in its code; empty where nothing is to be made
   std::function<ScreenSpaceView(const DepthBuffer&, const std::vector<SurfaceAlbedo>&)> run = {};

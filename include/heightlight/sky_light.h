@@ -75,8 +75,8 @@ struct SkyGrid {
 };
 
 /// Each cell has the sky's mean over the spherical cap of that solid angle (sr, in (0, 2π]) around it: what a
-/// direction sees that stands for so much of the sphere. File 001 asks for it in section 6: "High-frequency
-/// environment maps require either pre-smoothing or higher sampling rates."
+/// direction sees that stands for so much of the sphere. Ritschel et al. 2009 asks for it in section 6:
+/// "High-frequency environment maps require either pre-smoothing or higher sampling rates."
 SkyGrid make_sky_grid(const SkyLight& sky, double solid_angle);
 
 /// In units of what a level plane with nothing in its way receives, E/π, its three channels' mean. A sky

@@ -130,7 +130,7 @@ struct FormFactorRow {
 /// Σ F_ij x_j is what gather(x) gives it.
 FormFactorRow form_factor_row(const FormFactors& form_factors, int row, int column);
 
-/// Obscurance and ambient transfer (file 002, eqs. 5 and 6); NaN where the sample is missing.
+/// Obscurance and ambient transfer (Umenhoffer et al. 2009, eqs. 5 and 6); NaN where the sample is missing.
 struct AmbientTransfer {
   Map obscurance;             ///< O = A + Σ F μ, [0, 1]
   std::vector<Map> transfer;  ///< W = O/(1 − Σ F (1 − μ) ρ) per channel of the albedo, [0, 1]

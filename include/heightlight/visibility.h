@@ -111,7 +111,8 @@ struct SkyMoments {
 Vector3 bent_normal(const Vector3& first_moment, const Vector3& normal);
 
 /// How what is near a receiver counts for more than what is far: a direction in which the surface stands at
-/// distance d counts as open by the share μ(d) (file 002, section 2), which is 1 from the reach D on.
+/// distance d counts as open by the share μ(d) (Umenhoffer et al. 2009, section 2), which is 1 from the reach
+/// D on.
 enum class Falloff {
   none,        ///< 0: all that stands nearer than D occludes wholly
   linear,      ///< d/D

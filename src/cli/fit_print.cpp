@@ -27,7 +27,7 @@ void print_parameters(const FittedFamily& fitted) {
 
 void print_bounce_fits(const std::vector<BounceFit>& fits) {
   if (fits.empty()) return;
-  fmt::print("each bounce over alpha, A alpha (1 - alpha)^1.5 exp(-B alpha^C), all three free (file 004)\n");
+  fmt::print("each bounce over alpha, A alpha (1 - alpha)^1.5 exp(-B alpha^C), all three free (Patapom)\n");
   for (const BounceFit& fit : fits) {
     if (!fit.fault.empty()) {
       fmt::print("  b = {:<3} {}\n", fit.bounce, fit.fault);

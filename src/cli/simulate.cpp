@@ -115,10 +115,10 @@ void add_simulate_command(CLI::App& app) {
                     "with rays or --error 0: also write links.npz, the form factors as scipy.sparse.load_npz "
                     "reads them");
   command
-      ->add_option(
-          "--obscurance", options->obscurance,
-          "with rays or --error 0: also write obscurance.exr and ambient_transfer.exr (file 002, eqs. 5 and "
-          "6),\nof occluders nearer than that, in world units or percent of the width")
+      ->add_option("--obscurance", options->obscurance,
+                   "with rays or --error 0: also write obscurance.exr and ambient_transfer.exr (Umenhoffer "
+                   "et al. 2009, eqs. 5 and "
+                   "6),\nof occluders nearer than that, in world units or percent of the width")
       ->type_name("D|P%");
   command->add_option("--falloff", options->falloff, "of them: none, linear, sqrt (default) or exponential")
       ->check(CLI::IsMember(falloff_names()));

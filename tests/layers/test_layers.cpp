@@ -277,7 +277,8 @@ TEST_CASE("layers: each folder has a README of 5 to 15 lines that tells its entr
 
 TEST_CASE("layers: the constants of closed forms stand in forms.h alone") {
   const std::filesystem::path root(HEIGHTLIGHT_SOURCE_DIR);
-  // A digit or two of each published polynomial: the notes' F0 and F1 (file 004), Jimenez' fit (file 000).
+  // A digit or two of each published polynomial: the notes' F0 and F1 (Patapom), Jimenez' fit (Jimenez et al.
+  // 2016).
   const Names constants = {"27.576937094", "3.336439200", "2.0404", "4.7951", "2.7552"};
   Names places;
   for (const char* folder : {"src", "include", "examples"}) {

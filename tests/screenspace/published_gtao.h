@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-// File 000's algorithms 1 and 2, line by line, from the horizons' polar angles on: what the kernels, which
-// say the same with one arc tangent, are held to.
+// Algorithms 1 and 2 of Jimenez et al. 2016, line by line, from the horizons' polar angles on: what the
+// kernels, which say the same with one arc tangent, are held to.
 
 namespace heightlight {
 

@@ -9,7 +9,8 @@
 #include "published_gtao.h"
 #include "visibility/slice_integrals.h"
 
-// File 000 eqs. 7, 20 and 21 against numerical quadrature, and against the form that the kernels compute.
+// Jimenez et al. 2016, eqs. 7, 20 and 21 against numerical quadrature, and against the form that the kernels
+// compute.
 
 namespace heightlight {
 namespace {

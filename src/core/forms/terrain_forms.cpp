@@ -87,7 +87,7 @@ const std::vector<TerrainForm>& terrain_forms() {
            }},
       {.name = "own_series",
        .description = "E0/(1 - rho V)",
-       .source = "the same with the texel for its neighbourhood; file 000 eq. 12",
+       .source = "the same with the texel for its neighbourhood; Jimenez et al. 2016, eq. 12",
        .evaluate = [](Terrain in) { return sum_series(in.direct, in.albedo * surface_share(in)); }},
       {.name = "cubic",
        .description = "E0/A (a A^3 - b A^2 + c A)",

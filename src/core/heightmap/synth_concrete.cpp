@@ -4,7 +4,7 @@
 #include "heightmap/synth_noise.h"
 #include "heightmap/synth_shapes.h"
 
-// The notes' second scene (file 004, "Showtime"): rough concrete, meant for a relief of 0.05 of the width. It
+// The notes' second scene (Patapom, "Showtime"): rough concrete, meant for a relief of 0.05 of the width. It
 // was cast against four boards, whose seams stand proud where paste ran between them; bubbles left holes,
 // aggregate shows where the skin is worn away. Lengths are map widths, heights are shares of the relief.
 

@@ -4,7 +4,7 @@
 #include "heightmap/synth_noise.h"
 #include "heightmap/synth_shapes.h"
 
-// The notes' first scene (file 004, "Showtime"): solids on a floor, one map width of which they rise 0.45.
+// The notes' first scene (Patapom, "Showtime"): solids on a floor, one map width of which they rise 0.45.
 // What is round is round at that relief.
 
 namespace heightlight::synth {

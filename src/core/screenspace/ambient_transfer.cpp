@@ -10,7 +10,7 @@
 #include "screenspace/point_kernel.h"
 #include "screenspace/relaxed_points.h"
 
-// Of file 002 section 4.1: a point (ξ_x, ξ_y, ξ_z) of the unit cube becomes the direction
+// Of Umenhoffer et al. 2009, section 4.1: a point (ξ_x, ξ_y, ξ_z) of the unit cube becomes the direction
 //     ω = T cos(2π ξ_x) √ξ_y + B sin(2π ξ_x) √ξ_y + N √(1 − ξ_y),
 // distributed like the cosine, and the distance r = μ⁻¹(ξ_z): R ξ_z² for the square root, R for the step, and
 // −R/4 ln(1 − ξ_z (1 − e⁻⁴)) for the exponential.

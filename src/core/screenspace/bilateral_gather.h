@@ -5,10 +5,10 @@
 
 #include "heightlight/screenspace.h"
 
-// What the spatial noise takes apart, neighbours put together (file 000 section 4.3, file 002 section 4.2):
-// the mean, with equal weights, of those results in a window of 4 × 4 texels that belong to the same surface.
-// Any such window holds every rank of the noise once. It reaches from one texel before to two texels after
-// the receiver: half a texel off its middle, as 4 × 4 windows are.
+// What the spatial noise takes apart, neighbours put together (Jimenez et al. 2016, section 4.3, Umenhoffer
+// et al. 2009, section 4.2): the mean, with equal weights, of those results in a window of 4 × 4 texels that
+// belong to the same surface. Any such window holds every rank of the noise once. It reaches from one texel
+// before to two texels after the receiver: half a texel off its middle, as 4 × 4 windows are.
 //
 // A neighbour belongs to the same surface where it lies within a tolerance of the receiver's tangent plane,
 // and its normal is like the receiver's.

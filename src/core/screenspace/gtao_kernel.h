@@ -6,7 +6,7 @@
 #include "heightlight/screenspace.h"
 #include "screenspace/slice_samples.h"
 
-// GTAO of one row of receivers (file 000, algorithms 1 and 2).
+// GTAO of one row of receivers (Jimenez et al. 2016, algorithms 1 and 2).
 //
 // The view vector is z. Slice d, a unit vector of the plane, is spanned by d and z; in it, with c = n·d and
 // the projected normal n̄ = c d + n_z z = |n̄| (sinγ d + cosγ z), a direction at the polar angle θ on the side

@@ -7,9 +7,10 @@
 #include "heightlight/screenspace.h"
 #include "screenspace/bilateral_gather.h"
 
-// File 000, section 4.3: occlusion at half resolution, "bilaterally upscaled to full resolution". Of every 2
-// × 2 texels the upper left one's depth and normal are kept. Back at full resolution a texel takes the four
-// nearest results by their bilinear weights, as far as they lie on its own surface; all four where none does.
+// Jimenez et al. 2016, section 4.3: occlusion at half resolution, "bilaterally upscaled to full resolution".
+// Of every 2 × 2 texels the upper left one's depth and normal are kept. Back at full resolution a texel takes
+// the four nearest results by their bilinear weights, as far as they lie on its own surface; all four where
+// none does.
 
 namespace heightlight {
 namespace {

@@ -67,7 +67,7 @@ struct Preset {
   int slices, steps;
 };
 
-/// The usual four, and file 000's single direction of twelve steps.
+/// The usual four, and the single direction of Jimenez et al. 2016, of twelve steps.
 constexpr Preset kPresets[] = {{1, 2}, {2, 2}, {3, 3}, {9, 3}, {1, 6}};
 
 /// Reach of the variants below: the best of those tried on four maps.
@@ -122,8 +122,8 @@ void add_gtao_variants(std::vector<ScreenSpaceMethod>& methods) {
   for (const double thickness : {0.01, 0.05, 0.2}) add([=](GtaoOptions& o) { o.thickness = thickness; });
 }
 
-/// File 000, section 4.3: one direction of twelve steps at half resolution, in 4 × 4 squares and six turns;
-/// and the usual preset likewise.
+/// Jimenez et al. 2016, section 4.3: one direction of twelve steps at half resolution, in 4 × 4 squares and
+/// six turns; and the usual preset likewise.
 void add_gtao_half_resolution(std::vector<ScreenSpaceMethod>& methods) {
   const auto add = [&](GtaoOptions options) {
     methods.push_back({.name = "gtao",

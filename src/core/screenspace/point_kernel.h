@@ -10,9 +10,10 @@
 // Containment tests (files 001 and 002) for one row of receivers: points of the tangent hemisphere are looked
 // up in the depth buffer; a point below the surface hides its direction.
 //
-// A point (X, Y, Z) lies at x + X T + Y B + Z N, with the frame of file 002's shader, T = N × (0, 1, 0.01)
-// made unit and B = N × T, turned about N by the texel's noise. The surface there is interpolated on its
-// triangle (a GPU's bilinear fetch would do as much), so that a tilted plane does not hide itself.
+// A point (X, Y, Z) lies at x + X T + Y B + Z N, with the frame of the shader of Umenhoffer et al. 2009, T =
+// N × (0, 1, 0.01) made unit and B = N × T, turned about N by the texel's noise. The surface there is
+// interpolated on its triangle (a GPU's bilinear fetch would do as much), so that a tilted plane does not
+// hide itself.
 
 namespace heightlight {
 
@@ -63,9 +64,9 @@ void test_points_scalar(const PointPass& pass, int row, PointSums& sums);
 /// may put a point that lies on the surface on its other side.
 void test_points(const PointPass& pass, int row, PointSums& sums);
 
-/// File 001's indirect bounce of one row: Σ L A cosθ_s cosθ_r / d² over the points that are hidden, with L
-/// the `sender` map at the texel nearest to the point, the sender's cosine from that texel's normal, and d at
-/// least `least_distance`. `area` is A_s. Adds to `received`.
+/// The indirect bounce of Ritschel et al. 2009, of one row: Σ L A cosθ_s cosθ_r / d² over the points that are
+/// hidden, with L the `sender` map at the texel nearest to the point, the sender's cosine from that texel's
+/// normal, and d at least `least_distance`. `area` is A_s. Adds to `received`.
 struct BouncePass {
   PointPass points;
   const Map& sender;

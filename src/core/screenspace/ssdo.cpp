@@ -9,7 +9,8 @@
 #include "screenspace/point_kernel.h"
 #include "screenspace/relaxed_points.h"
 
-// File 001 section 3, with all radiances over that of the sky. Direction i of N stands for Δω = 2π/N, so that
+// Ritschel et al. 2009, section 3, with all radiances over that of the sky. Direction i of N stands for Δω =
+// 2π/N, so that
 //     E/π = Σ L_in(ω_i) V(ω_i) cosθ_i · 2/N,
 // where cosθ_i takes each of the values (k + ½)/N once, which makes an open receiver's sum exactly 1. A
 // sender whose radiance is L = ρ E₀/π adds L A_s cosθ_s cosθ_r/(π d²).

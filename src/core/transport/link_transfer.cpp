@@ -9,8 +9,8 @@
 #include "transport/link_corners.h"
 #include "visibility/exact_sky.h"
 
-// File 002, eqs. 5 and 6, from the links that a receiver has: each is a surface seen under a form factor F,
-// at a distance d, which counts as open by μ(d):
+// Umenhoffer et al. 2009, eqs. 5 and 6, from the links that a receiver has: each is a surface seen under a
+// form factor F, at a distance d, which counts as open by μ(d):
 //     O = A + Σ F μ(d),   W = O/(1 − Σ F (1 − μ(d)) ρ).
 
 namespace heightlight {

@@ -9,7 +9,7 @@ namespace heightlight {
 // so that the mean of its directions has the length R = 2/3 (1 + u + u²)/(1 + u), from 2/3 (a hemisphere) to
 // 1 (a ray).
 
-/// β in [0, π/2] of the cone that is as open: cos β = √(1 − A) (file 000 eq. 22).
+/// β in [0, π/2] of the cone that is as open: cos β = √(1 − A) (Jimenez et al. 2016, eq. 22).
 double cone_of_openness(double sky_view_factor);
 
 /// β of the cone whose directions are spread as much: R = |first| / A. Directions that are spread more than

@@ -124,7 +124,7 @@ RenderedForm render_sky(const std::string& title, const std::string& label, cons
   return {.title = title, .label = label, .rmse = rmse, .reflected = {thin, thin, thin}};
 }
 
-/// File 000, figure 5: by rising number of directions.
+/// Jimenez et al. 2016, figure 5: by rising number of directions.
 void add_directions(const Contender& contender, const Estimate& estimate,
                     const ComparisonReference& reference, Comparison& comparison) {
   const ErrorStatistics error = measure(subtract(estimate.sky_view_factor, reference.sky_view_factor));

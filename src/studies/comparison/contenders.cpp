@@ -115,8 +115,8 @@ void add_walks(const ComparedScene& scene, std::vector<Contender>& contenders) {
   }
 }
 
-/// File 000, section 4.3: near occlusion by GTAO, fading over the outer half of its reach, and the baked one
-/// of what is far, "by calculating their minimum". The baking is nobody's time.
+/// Jimenez et al. 2016, section 4.3: near occlusion by GTAO, fading over the outer half of its reach, and the
+/// baked one of what is far, "by calculating their minimum". The baking is nobody's time.
 Estimate run_near_and_far(const ComparedScene& scene, double reach) {
   GtaoOptions options;
   options.reach = scene.depth.relief > 0 ? reach * scene.depth.relief : options.reach;

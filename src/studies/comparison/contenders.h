@@ -27,7 +27,7 @@ struct Contender {
   bool shown = false;           ///< its errors are drawn, and those of closed forms on it
   std::string role = {};        ///< what it stands for at the head of the report; empty: it is not there
   bool finds_occlusion = true;  ///< given no albedos
-  int directions = 0;           ///< per texel, of those that file 000's figure 5 shows; 0 of others
+  int directions = 0;           ///< per texel, of those in Jimenez et al. 2016, figure 5; 0 of others
   bool finds_totals = false;    ///< of the albedos that it is given, beside its occlusion if it has one
   std::function<void()> prepare = {};  ///< to be called before it is timed, where it is not empty
   std::function<Estimate(const std::vector<ComparedAlbedo>& albedos)> run = {};

@@ -32,8 +32,8 @@ struct FormPanel {
   std::vector<PanelCurve> curves = {};
 };
 
-/// The forms of comparisons' heads, under the names that readers know: AO × π, the notes', file 000's two and
-/// G, then a user's own.
+/// The forms of comparisons' heads, under the names that readers know: AO × π, the notes', the two of Jimenez
+/// et al. 2016 and G, then a user's own.
 struct AnsweringForm {
   std::string form;
   std::string label;

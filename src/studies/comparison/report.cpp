@@ -153,7 +153,7 @@ void write_sky_light(std::FILE* file, const ReportInput& input) {
   std::fputc('\n', file);
 }
 
-/// File 001, table 1: what the stages take apart.
+/// Ritschel et al. 2009, table 1: what the stages take apart.
 void write_stages(std::FILE* file, const ReportInput& input) {
   if (input.comparison.stages.empty()) return;
   fmt::print(file, "## Stages, core-seconds\n\n| method | AO and direct light |");

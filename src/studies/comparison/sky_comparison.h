@@ -31,7 +31,7 @@ class SkyComparison {
  public:
   explicit SkyComparison(const ComparisonReference& reference);
 
-  /// By normal, as AO has it, and by bent normal where there is one (file 000, section 5).
+  /// By normal, as AO has it, and by bent normal where there is one (Jimenez et al. 2016, section 5).
   std::vector<SkyLightResult> compare_occlusion(const Contender& contender, const Estimate& estimate,
                                                 const Surface& surface, Cost cost) const;
 

@@ -45,7 +45,7 @@ double evaluate_bounce(const std::array<double, 3>& constants, double alpha) {
 FormFamily make_bounce_family(std::size_t bounce, const std::array<double, 3>& start) {
   FormFamily family{.name = "bounce_" + std::to_string(bounce),
                     .formula = "A alpha (1 - alpha)^1.5 exp(-B alpha^C)",
-                    .source = "file 004, summing the curves",
+                    .source = "Patapom, summing the curves",
                     .kind = AoKind::ambient_occlusion,
                     .target = FitTarget::one_bounce,
                     .bounce = bounce,

@@ -11,7 +11,7 @@
 
 namespace heightlight {
 
-/// The notes' form of one bounce (file 004, "Summing the curves"), E_b/π = A α (1 − α)^1.5 exp(−B α^C), with
+/// The notes' form of one bounce (Patapom, "Summing the curves"), E_b/π = A α (1 − α)^1.5 exp(−B α^C), with
 /// all three constants free; at b = 1 and C = ¼ it is F₁.
 struct BounceFit {
   std::size_t bounce = 1;

@@ -8,7 +8,7 @@
 
 namespace heightlight {
 
-/// What the bounces of like α say about τ, the ratio of each to the one before (file 004, eqs. 8 to 9), which
+/// What the bounces of like α say about τ, the ratio of each to the one before (Patapom, eqs. 8 to 9), which
 /// the notes take for one number.
 struct RatioBin {
   double ao = 0;  ///< mean α

@@ -6,7 +6,7 @@
 
 namespace heightlight {
 
-/// Appendix B of file 000: G = a A³ − b A² + c A at one albedo, by linear least squares.
+/// Appendix B of Jimenez et al. 2016: G = a A³ − b A² + c A at one albedo, by linear least squares.
 struct AlbedoCubic {
   double albedo = 0;
   double a = 0, b = 0, c = 0;

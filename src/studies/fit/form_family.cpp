@@ -62,7 +62,7 @@ FormFamily with_extra(FormFamily family, ExtraInput extra) {
 
 /// F₀ with power 1 does not exceed 1 as long as its gain does not.
 constexpr FormText kBoundedDirectText{"notes_direct_bounded", "alpha (1 + gain (1 - alpha))",
-                                      "file 004 eq. 7 with power 1, at most 1", ""};
+                                      "Patapom, eq. 7 with power 1, at most 1", ""};
 
 std::vector<FormFamily> notes_families() {
   const Form<NotesConstants> direct = [](const NotesConstants& c, Inputs in, double) {

@@ -13,7 +13,7 @@ namespace heightlight {
 enum class FitTarget {
   one_bounce,     ///< E_b/π at ρ = 1, over α or A
   total,          ///< of all bounces, ρ = 0.1 … 0.9
-  three_bounces,  ///< E₀ + ρE₁ + ρ²E₂ + ρ³E₃, at the albedos of file 000, appendix B
+  three_bounces,  ///< E₀ + ρE₁ + ρ²E₂ + ρ³E₃, at the albedos of Jimenez et al. 2016, appendix B
 };
 
 /// A form whose parameters are fitted: name, formula, parameters with their published values (those of this

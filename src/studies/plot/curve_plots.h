@@ -18,7 +18,7 @@ struct CurvePlotInput {
   std::string title = {};             ///< any characters; empty for none
 };
 
-/// Draws the figure of the notes (file 004) in eight panels, as SVG and as PNG: the bounces over α, their
+/// Draws the figure of the notes (Patapom) in eight panels, as SVG and as PNG: the bounces over α, their
 /// surface over bounce and α, their sum, E₀ beside its simplifications, texels per bin, the first bounce by
 /// relief, and whether τ is one number, over bounces and over albedos. Bins without texels leave gaps. Throws
 /// Error naming gnuplot when it is not installed or fails, or the file that could not be written.

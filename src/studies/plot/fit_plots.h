@@ -30,11 +30,11 @@ struct CubicPanel {
 /// The notes' last figure: forms (thick) over measured bin means (red), ρ = 0 to 1.
 GnuplotResult draw_fitted(bool is_svg, const std::vector<FittedPanel>& panels);
 
-/// File 000, figure 4: RMS error over the form's AO at ρ = 0.1 … 0.9, a panel for each form, its overall
-/// errors in the title; errors on a logarithmic axis.
+/// Jimenez et al. 2016, figure 4: RMS error over the form's AO at ρ = 0.1 … 0.9, a panel for each form, its
+/// overall errors in the title; errors on a logarithmic axis.
 GnuplotResult draw_errors(bool is_svg, const std::vector<JudgedForm>& forms);
 
-/// File 000, figure 18: the cubic's coefficients by albedo, fitted here and published.
+/// Jimenez et al. 2016, figure 18: the cubic's coefficients by albedo, fitted here and published.
 GnuplotResult draw_cubics(bool is_svg, const CubicPanel& cubics);
 
 /// Each of them as SVG and as PNG. They throw as plot_curves does.

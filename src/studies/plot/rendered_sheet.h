@@ -15,7 +15,7 @@ struct RenderedSheet {
   std::size_t columns = 1;
 };
 
-/// The notes' "Showtime" (file 004): renderings side by side, with their errors, as PNG (sRGB). Throws Error
+/// The notes' "Showtime" (Patapom): renderings side by side, with their errors, as PNG (sRGB). Throws Error
 /// naming gnuplot or the file.
 void plot_rendered(const std::filesystem::path& png, const std::vector<RenderedForm>& rendered,
                    const RenderedSheet& sheet);

@@ -8,7 +8,7 @@ class Gnuplot;
 
 namespace heightlight {
 
-// Two panels of the figure of one map's curves that put the notes' τ (file 004, eqs. 8 to 10) on trial.
+// Two panels of the figure of one map's curves that put the notes' τ (Patapom, eqs. 8 to 10) on trial.
 
 /// Makes their tables known to the script; before the multiplot.
 void send_tau_tables(gnuplotio::Gnuplot& script, const BounceCurves& over_alpha);

@@ -28,7 +28,7 @@ struct ReliefStudy {
 /// How the study walks: fine enough that the error does not show among the curves.
 const HorizonPlan& study_plan();
 
-/// The notes' study of the height amplitude (file 004): curves over α of the map with its heights scaled so
+/// The notes' study of the height amplitude (Patapom): curves over α of the map with its heights scaled so
 /// that its relief is each share of its width (spacing × columns). Runs on a copy of at most `largest_side`
 /// texels a side, which keeps the map's extent and boundary, since only the curves' shape is asked: every
 /// n-th sample, or as near to it as a side that n does not divide allows. A level map stays level. Throws
