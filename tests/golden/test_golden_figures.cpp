@@ -11,9 +11,9 @@
 #include "heightlight/transport.h"
 #include "test_maps.h"
 
-// Errors of the kind that the README states, on maps small enough for every run, against figures.csv beside
-// this file. Two thresholds for each: past `typical` the test warns, and the README's figures want a new
-// look; past `hard` it fails.
+// Errors of the kind that docs/accuracy.md states, on maps small enough for every run, against figures.csv
+// beside this file. Two thresholds for each: past `typical` the test warns, and the handbook's figures want a
+// new look; past `hard` it fails.
 
 namespace heightlight {
 namespace {
