@@ -1,7 +1,7 @@
 """Takes what stands beside docs/ into the site, so that pages read alike on a forge and in the site.
 
-Pages link to ../plots/NAME, as they must where the repository is read as plain Markdown. The site has the same files
-under plots/.
+Pages link to ../plots/NAME and the like, as they must where the repository is read as plain Markdown. The site has the
+same files under plots/ and so on.
 """
 
 import re
@@ -10,19 +10,21 @@ from pathlib import Path
 from mkdocs.structure.files import File
 
 ROOT = Path(__file__).resolve().parent.parent
-PATTERNS = ("plots/*.png", "plots/*.md", "plots/data/*.md", "plots/data/*.csv")
+BESIDE = re.compile(r"\]\(\.\./([^)#]+)")
 
 
 def on_files(files, config):
-    for pattern in PATTERNS:
-        for path in sorted(ROOT.glob(pattern)):
-            name = path.relative_to(ROOT).as_posix()
+    """Adds every file beside docs/ that a page links to."""
+    linked = set()
+    for page in Path(config["docs_dir"]).glob("*.md"):
+        linked.update(BESIDE.findall(page.read_text(encoding="utf-8")))
+    for name in sorted(linked):
+        if (ROOT / name).is_file():
             files.append(File(name, str(ROOT), config["site_dir"], config["use_directory_urls"]))
     return files
 
 
 def on_page_markdown(markdown, page, config, files):
-    markdown = re.sub(r"^```(\w+) \w+$", r"```\1", markdown, flags=re.MULTILINE)  # `sh long`: the site wants one word
-    if page.file.src_uri.startswith("plots/"):
-        return re.sub(r"\]\(\.\./docs/", "](../", markdown)
-    return markdown.replace("](../plots/", "](plots/")
+    """Makes links lead to those files, and the marks of fences one word, as the site wants them."""
+    markdown = re.sub(r"^```(\w+) \w+$", r"```\1", markdown, flags=re.MULTILINE)
+    return BESIDE.sub(r"](\1", markdown) if "/" not in page.file.src_uri else markdown
