@@ -429,7 +429,7 @@ void add_bake_command(CLI::App& app) {
                     ->type_name("FILE");
   for (const char* other : {"--relief", "--height", "--reliefs"}) match->excludes(command->get_option(other));
   command->add_option("--error", options->options.error,
-                      "RMSE wanted of the sky view factor and of the total (0.002)");
+                      "RMSE wanted of the sky view factor, of the total, and of specular-occlusion (0.002)");
   command->add_option("--azimuths", options->options.azimuths,
                       "azimuths of the sky, an even number (chosen for --error)");
   command

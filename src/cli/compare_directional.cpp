@@ -63,7 +63,7 @@ void draw_directional(StagedFolder& folder, const DirectionalStudy& study, const
     rendered.push_back({.title = picture.method.empty() ? "truth" : picture.method,
                         .label = picture.method.empty()
                                      ? picture.sky
-                                     : fmt::format("{}, MRSE {:.2g}", picture.sky, picture.mrse),
+                                     : fmt::format("{}, MRSE {:.5f}", picture.sky, picture.mrse),
                         .reflected = exposed_channels(picture.light)});
   }
   std::size_t columns = 1;

@@ -1,8 +1,13 @@
 #include "cli/config_file.h"
 
+#include <algorithm>
 #include <memory>
 #include <optional>
+#include <set>
+#include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "heightlight/error.h"
 
@@ -128,37 +133,46 @@ class CommandConfig : public CLI::Config {
 
   /// The options of the command that is to run; those of others are only looked at.
   std::vector<CLI::ConfigItem> from_config(std::istream& input) const override {
-    std::vector<CLI::ConfigItem> found;
-    std::string section;
+    Reading reading;
     int number = 1;
     for (std::string line; std::getline(input, line); ++number) {
       try {
-        read_line(line, section, found);
+        read_line(line, reading);
       } catch (const UsageError& error) {
         throw UsageError(config_file_of(app_) + ", line " + std::to_string(number) + ": " + error.what());
       }
     }
-    return found;
+    return reading.found;
   }
 
   std::string to_config(const CLI::App*, bool, bool, std::string) const override { return ""; }
 
  private:
-  void read_line(const std::string& text, std::string& section, std::vector<CLI::ConfigItem>& found) const {
+  /// As far as the file was read.
+  struct Reading {
+    std::string section;
+    std::set<std::string> keys;  ///< "bake.relief"
+    std::vector<CLI::ConfigItem> found;
+  };
+
+  void read_line(const std::string& text, Reading& reading) const {
     TomlLine line(text);
     if (line.is_done()) return;
     if (const std::optional<std::string> name = line.section()) {
       if (find_command(app_, *name) == nullptr) throw UsageError("there is no command '" + *name + "'");
-      section = *name;
+      reading.section = *name;
       return;
     }
     const std::string key = line.key();
-    check_key(app_, section, key);
+    check_key(app_, reading.section, key);
+    if (!reading.keys.insert(reading.section + '.' + key).second)
+      throw UsageError("'" + key + "' stands twice in " + reading.section);
     CLI::ConfigItem item;
-    item.parents = {section};
+    item.parents = {reading.section};
     item.name = key;
     item.inputs = line.values();
-    if (section == app_.get_subcommands().front()->get_name()) found.push_back(std::move(item));
+    const bool is_run = reading.section == app_.get_subcommands().front()->get_name();
+    if (is_run) reading.found.push_back(std::move(item));
   }
 
   const CLI::App& app_;
@@ -172,7 +186,11 @@ void add_config_options(CLI::App& app) {
   for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
     command
         ->add_option_function<std::string>(
-            "--config", [&app](const std::string& file) { app.get_config_ptr()->add_result(file); },
+            "--config",
+            [&app](const std::string& file) {
+              if (app.get_config_ptr()->count() > 0) throw UsageError("--config: give one file");
+              app.get_config_ptr()->add_result(file);
+            },
             "TOML that gives options, below [" + command->get_name() +
                 "], by their names; those given here win")
         ->type_name("FILE")
@@ -183,7 +201,7 @@ void add_config_options(CLI::App& app) {
 
 std::string config_file_of(const CLI::App& app) {
   const CLI::Option* option = app.get_config_ptr();
-  return option->count() == 0 ? "" : option->as<std::string>();
+  return option->count() == 0 ? "" : option->results().front();
 }
 
 }  // namespace heightlight

@@ -136,6 +136,7 @@ TEST_CASE("a wrong file of options is told in one line that names it", "[cli]") 
       {"[bake]\nmaps = \"ao\n", "line 2: a quote is open"},
       {"[bake]\nrelief\n", "line 2: there is no '=' after 'relief'"},
       {"[bake]\nconfig = \"other.toml\"\n", "line 2: bake has no option 'config'"},
+      {"[bake]\nrelief = 0.1\nrelief = 0.2\n", "line 3: 'relief' stands twice in bake"},
       {"[bake]\nrelief = tall\n", "wrong.toml"}};
   for (const auto& [text, fault] : faults) {
     write_text(folder / "wrong.toml", text);
@@ -150,6 +151,11 @@ TEST_CASE("a wrong file of options is told in one line that names it", "[cli]") 
   const CommandResult absent = run_command("bake brick.png -o out --config absent.toml", folder);
   CHECK(absent.exit_code == 2);
   CHECK(absent.error.find("absent.toml") != std::string::npos);
+  write_text(folder / "right.toml", "[bake]\nrelief = 0.1\n");
+  const CommandResult twice =
+      run_command("bake brick.png -o out --config right.toml --config right.toml", folder);
+  CHECK(twice.exit_code == 2);
+  CHECK(twice.error == "heightlight: --config: give one file\n");
 }
 
 TEST_CASE("bash completes commands, options, their values and files", "[cli]") {

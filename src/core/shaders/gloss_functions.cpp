@@ -178,7 +178,8 @@ ShaderFunction shared_solid_angle_function() {
               [](const float* in, float* out) {
                 *out = static_cast<float>(shared_solid_angle<double>(in[0], in[1], in[2]));
               },
-          .ulps = 256};
+          .ulps = 256,
+          .jumps = 1e-3};  // where hemispheres hardly meet, a hair is left of two angles of pi
 }
 
 ShaderFunction cone_cone_function() {
@@ -336,7 +337,8 @@ ShaderFunction lobe_direction_function() {
                 put(light.direction, out);
                 out[3] = light.facet_cosine;
               },
-          .ulps = 64};
+          .ulps = 64,
+          .jumps = 1e-3};  // at the disc's rim, where rounding alone is below a root
 }
 
 ShaderFunction frame_function(const std::string& name, const char* text,

@@ -136,7 +136,7 @@ struct BakeOptions {
   TextureFormat format = TextureFormat::png;
   TextureDepth depth = TextureDepth::uint16;
   bool dither = false;             ///< blue noise instead of rounding; 8 bits only
-  double error = 0.002;            ///< RMSE wanted of A and of the total
+  double error = 0.002;            ///< RMSE wanted of A, of the total, and of specular_occlusion
   int azimuths = 0;                ///< > 0: those of the sky, fixed
   std::uint64_t seed = 1;          ///< of pilot, check and dither
   std::uint64_t memory = ~0ULL;    ///< bytes that all of it may take
