@@ -4,8 +4,8 @@
 #include <cassert>
 #include <cmath>
 
-#include "base/srgb.h"
 #include "base/area_mean.h"
+#include "base/srgb.h"
 #include "base/texel_algebra.h"
 
 namespace heightlight {
