@@ -41,7 +41,7 @@ const std::map<std::string, Names> kMayInclude = {
     {"window", {"base", "heightmap", "surface", "visibility"}},
     {"files", kCore},
     {"relief", kCore},
-    {"report", with(kCore, {"files"})},
+    {"report", {"base", "heightmap", "files"}},
     {"expression", with(kCore, {"files"})},
     {"user_form", with(kCore, {"files", "expression"})},
     {"fit", with(kCore, {"files", "expression", "user_form"})},
