@@ -164,7 +164,7 @@ TEST_CASE("bash completes commands, options, their values and files", "[cli]") {
   REQUIRE(script.exit_code == 0);
   write_text(folder / "heightlight.bash", script.out);
   CHECK(complete("heightlight sim", folder) == "simulate\n");
-  CHECK(complete("heightlight bake --rel", folder) == "--relief\n");
+  CHECK(complete("heightlight bake --roughn", folder) == "--roughness\n");
   CHECK(complete("heightlight bake --skip", folder) == "--skip-existing\n");
   CHECK(complete("heightlight bake --format e", folder) == "exr\n");
   CHECK(complete("heightlight bake --depth ''", folder) == "8\n16\nhalf\nfloat\n");
