@@ -44,6 +44,10 @@ struct BakeCommand {
   std::string window;                     ///< COLUMN,ROW,WIDTH,HEIGHT; empty: the whole map
 };
 
+/// Bakes all maps of the command, which it reads first. Throws Error after the last one where some could not
+/// be baked, and UsageError before the first one for a request that makes no sense.
+void bake(BakeCommand& command);
+
 /// Reads the texts, all that does not depend on a map. Throws UsageError for what no map can be baked with.
 void parse_bake_options(BakeCommand& command);
 

@@ -102,14 +102,14 @@ TEST_CASE("a promise of memory is kept on larger maps, whatever is made of them"
   const int side = GENERATE(512, 1024);
   make_map(shape, side, folder);
   const std::string map = shape + std::to_string(side) + ".png";
-  for (const char* amount : {"200M", "220M", "300M", "1G"}) {
+  for (const char* amount : {"200M", "300M"}) {
     check_promise({"bake", map, "-o", "out"}, amount, folder);
     check_promise({"bake", map, "-o", "out", "--maps", "ao,multibounce,bent-cone,sh", "--format", "exr"},
                   amount, folder);
     check_promise({"bake", map, "-o", "out", "--maps", "ao-n,multibounce", "--albedo", "0.9,0.5,0.2"}, amount,
                   folder);
-    check_promise({"simulate", map, "-o", "out"}, amount, folder);
-    check_promise({"simulate", map, "-o", "out", "--sun", "120,40"}, amount, folder);
+    check_promise({"simulate", map, "-o", "out", "--error", "0.005"}, amount, folder);
+    check_promise({"simulate", map, "-o", "out", "--error", "0.005", "--sun", "120,40"}, amount, folder);
   }
 }
 

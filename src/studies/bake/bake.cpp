@@ -11,121 +11,20 @@
 #include "bake/blue_noise.h"
 #include "bake/file_name.h"
 #include "bake/former_bake.h"
-#include "bake/packed_texture.h"
 #include "bake/sidecar.h"
 #include "bake/texel_encoding.h"
 #include "bake/texture_files.h"
-#include "base/digits.h"
+#include "bake/texture_write.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
-#include "files/esri_grid_write.h"
-#include "files/image_file.h"
 #include "files/output_file.h"
 #include "files/specular_table_file.h"
 #include "files/staged_output.h"
 #include "heightlight/error.h"
 #include "heightlight/shaders.h"
-#include "visibility/reach_table.h"
 
 namespace heightlight {
 namespace {
-
-const char* extension_of(TextureFormat format) {
-  switch (format) {
-    case TextureFormat::png:
-      return ".png";
-    case TextureFormat::exr:
-      return ".exr";
-    case TextureFormat::tif:
-      return ".tif";
-    case TextureFormat::asc:
-      break;
-  }
-  return ".asc";
-}
-
-SampleType sample_type(TextureDepth depth) {
-  switch (depth) {
-    case TextureDepth::uint8:
-      return SampleType::uint8;
-    case TextureDepth::uint16:
-      return SampleType::uint16;
-    case TextureDepth::half:
-      return SampleType::half;
-    case TextureDepth::real:
-      break;
-  }
-  return SampleType::real;
-}
-
-std::vector<std::string> channel_names(const BakedTexture& texture) {
-  static const std::vector<std::string> kColour{"R", "G", "B", "A"};
-  const std::size_t count = texture.channels.size();
-  if (count == 1) return {"Y"};
-  if (count <= 4) return {kColour.begin(), kColour.begin() + static_cast<std::ptrdiff_t>(count)};
-  std::vector<std::string> names;
-  const std::size_t digits = count <= 100 ? 100 : 1000;
-  for (std::size_t i = 0; i < count; ++i) {
-    names.push_back(std::to_string(digits + i));
-    names.back().front() = 'c';  // in place: g++ 12 warns falsely of "c" + a string that ends here
-  }
-  return names;
-}
-
-/// What a GeoTIFF says of its bands.
-std::vector<BandText> band_texts(const BakedTexture& texture) {
-  std::vector<BandText> bands;
-  for (const BakedChannel& channel : texture.channels)
-    bands.push_back({.description = channel.quantity, .unit = channel.unit == "1" ? "" : channel.unit});
-  return bands;
-}
-
-/// The values of a texture that a material has.
-FillRows values_of(const BakedTexture& texture, int width) {
-  return [&texture, width](int first, int rows, float* samples) {
-    const std::size_t count = texture.channels.size();
-    parallel_for(rows, [&](std::int64_t line) {
-      const auto texels = static_cast<std::size_t>(width);
-      float* out = samples + static_cast<std::size_t>(line) * texels * count;
-      const std::size_t begin = static_cast<std::size_t>(first + line) * texels;
-      for (std::size_t i = begin; i < begin + texels; ++i) {
-        for (const BakedChannel& channel : texture.channels) *out++ = channel.value(i);
-      }
-    });
-  };
-}
-
-/// A map's samples as its file holds them. All arguments must outlive them.
-FillRows encoded_rows(const BakedTexture& texture, const FillRows& values, int width,
-                      const TexelEncoding& encoding) {
-  return [&texture, &values, width, &encoding](int first, int rows, float* samples) {
-    values(first, rows, samples);
-    const auto count = static_cast<int>(texture.channels.size());
-    parallel_for(rows, [&](std::int64_t line) {
-      const int row = first + static_cast<int>(line);
-      float* sample = samples + line * width * count;
-      for (int column = 0; column < width; ++column) {
-        for (int c = 0; c < count; ++c, ++sample)
-          *sample =
-              encode_texel(encoding, texture.channels[static_cast<std::size_t>(c)], *sample, row, column, c);
-      }
-    });
-  };
-}
-
-void write_baked(const std::filesystem::path& path, const BakedTexture& texture, const FillRows& values,
-                 const TexelEncoding& encoding, const BakedMap& map) {
-  const TextureLayout layout{.width = map.header.height.width,
-                             .height = map.header.height.height,
-                             .channels = channel_names(texture),
-                             .type = sample_type(encoding.depth),
-                             .attributes = {{"ImageDescription", texture.definition}},
-                             .place = map.place ? &*map.place : nullptr,
-                             .bands = band_texts(texture)};
-  const FillRows rows = encoded_rows(texture, values, layout.width, encoding);
-  if (path.extension() == ".asc") return write_esri_grid(path, layout, map.header.spacing, rows);
-  write_texture(path, layout, rows);
-}
 
 /// What the user should know before believing the maps, of the file and of what was made of it.
 std::vector<Warning> find_warnings(std::vector<Warning> warnings, const Heightmap& map,
@@ -257,12 +156,6 @@ class StagedBake {
   StagedFolder folder_;
 };
 
-std::vector<MaterialMapName> with_definitions(std::vector<MaterialMapName> maps) {
-  for (const SkyDefinitionFacts& facts : sky_definitions())
-    maps.push_back({static_cast<MaterialMap>(maps.size()), facts.name, facts.formula});
-  return maps;
-}
-
 /// A relief that was guessed is too much where hardly any sky is seen, unless its slopes say so already.
 void doubt_darkness(const Material& material, std::vector<Warning>& warnings) {
   constexpr double kDark = 0.3;
@@ -285,50 +178,7 @@ void doubt_darkness(const Material& material, std::vector<Warning>& warnings) {
        "relief"});
 }
 
-/// Of maps that a height's surroundings make.
-void check_local_options(const BakeOptions& options) {
-  if (!(options.normal_strength > 0) || !std::isfinite(options.normal_strength))
-    throw UsageError("normal_strength", "", "must be a positive number");
-  if (!(options.midlevel >= 0 && options.midlevel <= 1))
-    throw UsageError("midlevel", in_digits(options.midlevel), "must be from 0 to 1");
-  if (!options.detail_scale) return;
-  if (!(*options.detail_scale >= 0) || !std::isfinite(*options.detail_scale))
-    throw UsageError("detail_scale", "", "must be a length, or 0: the samples as they are");
-  if (*options.detail_scale == 0 && is_wanted(options, MaterialMap::cavity))
-    throw UsageError("detail_scale", "0", "leaves a cavity no surroundings");
-}
-
 }  // namespace
-
-const std::vector<MaterialMapName>& material_maps() {
-  static const std::vector<MaterialMapName> kMaps = with_definitions(
-      {{MaterialMap::ao, "ao", "ambient occlusion, 1 = open"},
-       {MaterialMap::multibounce, "multibounce",
-        "irradiance of all bounces at the albedo, 1 = unoccluded: to be multiplied, once"},
-       {MaterialMap::direct, "direct", "direct irradiance of --sun, --sky or --direct, before any bounce"},
-       {MaterialMap::bent_normal, "bent-normal", "mean direction of the sky that is seen"},
-       {MaterialMap::bent_cone, "bent-cone", "the same, with the half-angle of a cone in alpha"},
-       {MaterialMap::normal, "normal", "normal of the surface"},
-       {MaterialMap::ao_n, "ao-n", "two channels that give multibounce at any albedo, with a shader"},
-       {MaterialMap::horizon, "horizon", "elevation of the horizon toward some azimuths"},
-       {MaterialMap::sh, "sh", "order-2 spherical harmonics of cosine-weighted visibility"},
-       {MaterialMap::height, "height", "heights from 0 to 1"},
-       {MaterialMap::specular_occlusion, "specular-occlusion",
-        "what gloss sees of the sky, at --roughness from --view, with shaders and GTSO's table"},
-       {MaterialMap::curvature, "curvature", "mean curvature at --detail-scale: .5 flat, above it convex"},
-       {MaterialMap::convexity, "convexity", "what of it is convex: 0 where it is not"},
-       {MaterialMap::concavity, "concavity", "what of it is concave: 0 where it is not"},
-       {MaterialMap::cavity, "cavity", "height above its surroundings at --detail-scale: crevices are dark"},
-       {MaterialMap::displacement, "displacement", "height above --midlevel, in metres or centimetres"}});
-  return kMaps;
-}
-
-std::optional<SkyDefinition> definition_of(MaterialMap map) {
-  if (map < MaterialMap::svf_tilted) return std::nullopt;
-  return static_cast<SkyDefinition>(static_cast<int>(map) - static_cast<int>(MaterialMap::svf_tilted));
-}
-
-const char* to_string(MaterialMap map) { return material_maps()[static_cast<std::size_t>(map)].name; }
 
 std::vector<std::string> shared_files(const BakeOptions& options) {
   std::vector<std::string> files;
@@ -360,55 +210,6 @@ void check_file_names(const std::string& name, const BakeOptions& options) {
     if (!names.insert(file).second)
       throw UsageError("name", options.name, "two files would be called " + file);
   }
-}
-
-void check_bake_options(const BakeOptions& options) {
-  const bool integer = largest_level(options.depth) > 0;
-  if (options.maps.empty() && options.packed.empty()) throw UsageError("maps", "", "name at least one map");
-  if (std::set<MaterialMap>(options.maps.begin(), options.maps.end()).size() != options.maps.size()) {
-    throw UsageError("maps", "", "names a map twice");
-  }
-  if (options.format == TextureFormat::png && !integer) {
-    throw UsageError("depth", "", "PNG holds 8 or 16 bits; the formats exr and tif hold floats");
-  }
-  if (options.format == TextureFormat::exr && integer) {
-    throw UsageError("depth", "", "EXR holds half or float; the formats png and tif hold 8 and 16 bits");
-  }
-  if (options.format == TextureFormat::asc && options.depth != TextureDepth::real) {
-    throw UsageError("depth", "",
-                     "of an Esri grid is that of its numbers; the formats png and tif hold levels");
-  }
-  const bool has_cone =
-      std::find(options.maps.begin(), options.maps.end(), MaterialMap::bent_cone) != options.maps.end();
-  if (options.format == TextureFormat::asc && (has_cone || !options.packed.empty())) {
-    throw UsageError("format", "asc", "holds one channel: bent cones and packed channels want another");
-  }
-  if (options.dither && options.depth != TextureDepth::uint8) {
-    throw UsageError("dither", "", "only a depth of 8 bits needs it");
-  }
-  if (is_wanted(options, MaterialMap::direct) && options.light_channels == 0) {
-    throw UsageError("maps", "",
-                     "direct wants a light: a sun, a sky, or one of your own; an even sky's is ao");
-  }
-  if (is_wanted(options, MaterialMap::ao_n) && options.light_channels > 0) {
-    throw UsageError("maps", "", "ao-n is of an even sky; bake it without a light of your own");
-  }
-  if (options.reach) check_reach(*options.reach);
-  if (!(options.error > 0) || options.error > 1) {
-    throw UsageError("error", std::to_string(options.error), "must be above 0, and 1 at most");
-  }
-  if (options.azimuths != 0) check_azimuths(options.azimuths);
-  if (options.horizon_azimuths < 1 || options.horizon_azimuths > 360) {
-    throw UsageError("horizon_azimuths", std::to_string(options.horizon_azimuths), "must be from 1 to 360");
-  }
-  if (options.below == BelowHorizontal::ground && is_wanted(options, MaterialMap::ao_n))
-    throw UsageError("below_horizontal", "ground", "is not for ao-n, whose n is that of a sky all around");
-  if (options.below == BelowHorizontal::ground && is_wanted(options, MaterialMap::specular_occlusion))
-    throw UsageError("below_horizontal", "ground", "is not for specular-occlusion, whose sky is all around");
-  check_gloss(options.gloss);
-  check_view(options.view);
-  check_packs(options);
-  check_local_options(options);
 }
 
 BakeOutcome bake_material(LoadedHeightmap loaded, const BakeOptions& options, const BakeTarget& target) {
