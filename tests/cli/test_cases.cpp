@@ -103,11 +103,12 @@ TEST_CASE("what info knows of a map, every command tells", "[cli][cases][slow]")
                                                 {"unit_floats.tif", "--relief 0.1"}}));
   write_text(folder / "study.json",
              "{\"maps\": [{\"file\": \"cases/" + file + "\"}], \"options\": [{\"rays\": 4}]}");
-  for (const std::string& arguments :
-       std::vector<std::string>{"info cases/" + file, "simulate cases/" + file + " -o s --rays 4 --quiet",
-                                "bake cases/" + file + " -o b --maps ao --azimuths 4 --quiet",
-                                "compare cases/" + file + " -o c --azimuths 4 --quiet",
-                                std::string("dataset study.json -o d --quiet")}) {
+  std::vector<std::string> commands{"info cases/" + file, "simulate cases/" + file + " -o s --rays 4 --quiet",
+                                    "bake cases/" + file + " -o b --maps ao --azimuths 4 --quiet",
+                                    "dataset study.json -o d --quiet"};
+  // It takes a minute, and reads as the others do.
+  if (file == "void_int16.tif") commands.push_back("compare cases/" + file + " -o c --azimuths 4 --quiet");
+  for (const std::string& arguments : commands) {
     const CommandResult run = run_command(arguments, folder);
     INFO(arguments << "\n" << run.error);
     CHECK_THAT(run.out + run.error, Contains(advice));
