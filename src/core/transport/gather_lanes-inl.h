@@ -62,24 +62,30 @@ class GatherLanes {
       slope_[v] = hn::MulAdd(hn::Load(kGF, tile.slope_x.data() + at), hn::Set(kGF, azimuth.world_x),
                              hn::Mul(hn::Load(kGF, tile.slope_y.data() + at), hn::Set(kGF, azimuth.world_y)));
       tangent_[v] = slope_[v];
-      bar_[v] = bar_above(slope_[v]);
     }
   }
 
   /// Looks at all samples first; gather() then gives weight to those that rise. In one loop, whether a sample
   /// does is what the machine would guess wrongly, and wait for.
   HWY_INLINE void look(RisingRows& rows) {
-    for (RisingSamples& row : rows) row.count = 0;
+    std::array<Looking, kGatherRows> looking;
+    for (std::size_t v = 0; v < kGatherRows; ++v) looking[v] = start_looking(v, rows[v]);
+    const GatherSample* samples = azimuth_.samples.data();
     const std::size_t end = azimuth_.samples.size();
     for (std::size_t first = 0; first < end; first += kAtOnce) {
-      if (first > 0 && !may_rise(azimuth_.samples[first].per_distance)) return;
+      if (first > 0 && !may_rise(samples[first].per_distance, looking)) break;
       for (std::size_t number = first; number < std::min(first + kAtOnce, end); ++number) {
-        if (number < azimuth_.near) {
-          look_near(number, rows);
-        } else {
-          look_at_block(number, rows);
+        const GatherSample& sample = samples[number];
+        for (std::size_t v = 0; v < kGatherRows; ++v) {
+          const GV slope = number < azimuth_.near ? slope_near(sample, number >= azimuth_.lifted, looking[v])
+                                                  : slope_of_block(sample, v, looking[v]);
+          see(slope, number, looking[v]);
         }
       }
+    }
+    for (std::size_t v = 0; v < kGatherRows; ++v) {
+      slope_[v] = looking[v].slope;
+      rows[v].count = looking[v].count;
     }
   }
 
@@ -90,11 +96,12 @@ class GatherLanes {
     const GV c = hn::Neg(hn::Mul(n_z, tangent_[v]));
     Horizon horizon = horizon_at(c, n_z, tangent_[v]);
     GV weight_sum = hn::Zero(kGF);
-    std::array<GV, kFields> sum, last, own;
+    std::array<GV, kFields> sum, last;
+    std::array<const float*, kFields> here;
     for (std::size_t f = 0; f < kFields; ++f) {
+      here[f] = address(task_.fields[f]->level(0), v);
       sum[f] = hn::Zero(kGF);
-      own[f] = hn::LoadU(kGF, address(task_.fields[f]->level(0), v));
-      last[f] = own[f];
+      last[f] = hn::LoadU(kGF, here[f]);
     }
     for (std::size_t i = 0; i < samples.count; ++i) {
       const std::size_t number = samples.rising[i];
@@ -104,7 +111,7 @@ class GatherLanes {
       const GV weight = hn::IfThenElseZero(rises, hn::Max(hn::Sub(next.seen, horizon.seen), hn::Zero(kGF)));
       const GV place = place_seen(horizon, next, samples, number);
       for (std::size_t f = 0; f < kFields; ++f) {
-        const GV seen = number == 0 ? own_facet(f, v, own[f]) : value_between(f, v, number, place);
+        const GV seen = number == 0 ? own_facet(here[f]) : value_between(f, v, here[f], number, place);
         sum[f] = hn::MulAdd(weight, seen, sum[f]);
         last[f] = hn::IfThenElse(rises, seen, last[f]);
       }
@@ -163,45 +170,57 @@ class GatherLanes {
             hn::Max(towards, hn::Zero(kGF))};
   }
 
+  /// A row of receivers as it looks along its way: apart from *this, so that it stays in registers.
+  struct Looking {
+    GV height, slope, bar;
+    const float* here;    ///< the receivers' samples
+    const float* lifted;  ///< the same, of lifted heights
+    float* slopes;        ///< as RisingSamples has them, and
+    std::uint32_t* rising;
+    std::size_t count;
+  };
+
+  HWY_INLINE Looking start_looking(std::size_t v, RisingSamples& samples) const {
+    return {.height = height_[v],
+            .slope = slope_[v],
+            .bar = bar_above(slope_[v]),
+            .here = address(task_.scene.heights.level(0), v),
+            .lifted = address(task_.scene.lifted.level(0), v),
+            .slopes = samples.slope(0),
+            .rising = samples.rising.data(),
+            .count = 0};
+  }
+
   /// Could anything no nearer than 1 / `per_distance` raise any horizon?
-  HWY_INLINE bool may_rise(float per_distance) const {
+  HWY_INLINE bool may_rise(float per_distance, const std::array<Looking, kGatherRows>& looking) const {
     const GV highest = hn::Set(kGF, task_.highest);
     auto rises = hn::FirstN(kGF, 0);
-    for (std::size_t v = 0; v < kGatherRows; ++v) {
-      const GV above = hn::Max(hn::Sub(highest, height_[v]), hn::Zero(kGF));
-      rises = hn::Or(rises, hn::Gt(hn::Mul(above, hn::Set(kGF, per_distance)), bar_[v]));
+    for (const Looking& row : looking) {
+      const GV above = hn::Max(hn::Sub(highest, row.height), hn::Zero(kGF));
+      rises = hn::Or(rises, hn::Gt(hn::Mul(above, hn::Set(kGF, per_distance)), row.bar));
     }
     return !hn::AllFalse(kGF, rises);
   }
 
-  HWY_INLINE void see(GV s, std::size_t v, std::size_t number, RisingSamples& samples) {
-    hn::Store(s, kGF, samples.slope(number));
-    const auto rises = hn::Gt(s, bar_[v]);
-    samples.rising[samples.count] = static_cast<std::uint32_t>(number);
-    samples.count += hn::AllFalse(kGF, rises) ? 0 : 1;
-    slope_[v] = hn::Max(slope_[v], s);
-    bar_[v] = hn::IfThenElse(rises, bar_above(s), bar_[v]);
+  HWY_INLINE void see(GV slope, std::size_t number, Looking& row) const {
+    hn::Store(slope, kGF, row.slopes + number * hn::Lanes(kGF));
+    const auto rises = hn::Gt(slope, row.bar);
+    row.rising[row.count] = static_cast<std::uint32_t>(number);
+    row.count += hn::AllFalse(kGF, rises) ? 0 : 1;
+    row.slope = hn::Max(row.slope, slope);
+    row.bar = hn::IfThenElse(rises, bar_above(slope), row.bar);
   }
 
-  HWY_INLINE void look_near(std::size_t number, RisingRows& rows) {
-    const GatherSample& sample = azimuth_.samples[number];
-    const FieldPyramid& heights = number < azimuth_.lifted ? task_.scene.heights : task_.scene.lifted;
-    for (std::size_t v = 0; v < kGatherRows; ++v) {
-      const float* here = address(heights.level(0), v);
-      const GV from = hn::Sub(hn::LoadU(kGF, here + sample.offset[0]), height_[v]);
-      const GV to = hn::Sub(hn::LoadU(kGF, here + sample.offset[1]), height_[v]);
-      see(hn::MulAdd(hn::Set(kGF, sample.weight[1]), to, hn::Mul(hn::Set(kGF, sample.weight[0]), from)), v,
-          number, rows[v]);
-    }
+  static HWY_INLINE GV slope_near(const GatherSample& sample, bool lifted, const Looking& row) {
+    const float* here = lifted ? row.lifted : row.here;
+    const GV from = hn::Sub(hn::LoadU(kGF, here + sample.offset[0]), row.height);
+    const GV to = hn::Sub(hn::LoadU(kGF, here + sample.offset[1]), row.height);
+    return hn::MulAdd(hn::Set(kGF, sample.weight[1]), to, hn::Mul(hn::Set(kGF, sample.weight[0]), from));
   }
 
-  HWY_INLINE void look_at_block(std::size_t number, RisingRows& rows) {
-    const GatherSample& sample = azimuth_.samples[number];
-    const FieldPyramid::Level& blocks = task_.scene.heights.level(sample.level);
-    for (std::size_t v = 0; v < kGatherRows; ++v) {
-      const GV above = hn::Sub(read_blocks(blocks, v, sample), height_[v]);
-      see(hn::Mul(above, hn::Set(kGF, sample.per_distance)), v, number, rows[v]);
-    }
+  HWY_INLINE GV slope_of_block(const GatherSample& sample, std::size_t v, const Looking& row) const {
+    const GV above = hn::Sub(read_blocks(task_.scene.heights.level(sample.level), v, sample), row.height);
+    return hn::Mul(above, hn::Set(kGF, sample.per_distance));
   }
 
   /// Of the first receiver in a row.
@@ -221,25 +240,26 @@ class GatherLanes {
     return hn::TableLookupLanes(hn::LoadU(kGF, blocks.block(row >> level, start >> level)), order);
   }
 
-  HWY_INLINE GV value_at(std::size_t field, std::size_t v, std::size_t number) const {
+  /// Of a field in a row of receivers whose own samples of it are `here`.
+  HWY_INLINE GV value_at(std::size_t field, std::size_t v, const float* here, std::size_t number) const {
     const GatherSample& sample = azimuth_.samples[number];
     if (number >= azimuth_.near) return read_blocks(task_.fields[field]->level(sample.level), v, sample);
-    const float* here = address(task_.fields[field]->level(0), v);
     const GV from = hn::LoadU(kGF, here + sample.offset[0]);
     const GV to = hn::LoadU(kGF, here + sample.offset[1]);
     return hn::MulAdd(hn::Set(kGF, sample.share), hn::Sub(to, from), from);
   }
 
-  HWY_INLINE GV value_between(std::size_t field, std::size_t v, std::size_t number, GV place) const {
-    const GV begin = value_at(field, v, number - 1);
-    return hn::MulAdd(place, hn::Sub(value_at(field, v, number), begin), begin);
+  HWY_INLINE GV value_between(std::size_t field, std::size_t v, const float* here, std::size_t number,
+                              GV place) const {
+    const GV begin = value_at(field, v, here, number - 1);
+    return hn::MulAdd(place, hn::Sub(value_at(field, v, here, number), begin), begin);
   }
 
   /// The middle of the triangle that the receiver is a corner of stands for what is seen of it, as it does
   /// for rays (ray_traversal.h): the first sample lies on the side across.
-  HWY_INLINE GV own_facet(std::size_t field, std::size_t v, GV own) const {
+  HWY_INLINE GV own_facet(const float* here) const {
     const GatherSample& sample = azimuth_.samples[0];
-    const float* here = address(task_.fields[field]->level(0), v);
+    const GV own = hn::LoadU(kGF, here);
     const GV others =
         hn::Add(hn::LoadU(kGF, here + sample.offset[0]), hn::LoadU(kGF, here + sample.offset[1]));
     return hn::Mul(hn::Set(kGF, 1.0F / 3), hn::Add(own, others));
@@ -302,7 +322,7 @@ class GatherLanes {
   const GatherAzimuth& azimuth_;
   int row_, column_;
   std::size_t at_;
-  std::array<GV, kGatherRows> height_, tangent_, slope_, bar_;
+  std::array<GV, kGatherRows> height_, tangent_, slope_;
 };
 
 /// Makes means of the sums of a vector of receivers in each row.
