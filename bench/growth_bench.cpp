@@ -38,10 +38,10 @@ constexpr WalkOptions kFixedWalk{.azimuths = 32, .fineness = 16, .peak_share = 0
 /// What became of one map. Plain, so that it can go through a pipe.
 struct Growth {
   Cost fixed_walk;
-  Cost pilot;   ///< its exact walks
-  Cost sky;     ///< with its mips, and the choice of how it is walked
-  Cost plan;    ///< of the gathers, and the heights that they look at
-  Cost totals;  ///< all gathers
+  Cost calibration;  ///< its exact walks
+  Cost sky;          ///< with its mips, and the choice of how it is walked
+  Cost plan;         ///< of the gathers, and the heights that they look at
+  Cost totals;       ///< all gathers
   int sky_azimuths = 0;
   int sky_fineness = 0;
   int gather_azimuths = 0;  ///< of each of the last two
@@ -50,7 +50,7 @@ struct Growth {
   double peak_bytes = 0;  ///< resident, of the process, until the totals are there
   HorizonCheck check;
 
-  Cost all() const { return pilot + sky + plan + totals; }
+  Cost all() const { return calibration + sky + plan + totals; }
 };
 
 /// Resident memory of this process at its most, bytes.
@@ -79,15 +79,15 @@ struct Planned {
 Planned plan(const Surface& surface, const Options& options, Growth& growth) {
   HorizonGoal goal;
   goal.error = options.error;
-  const Stopwatch pilot_watch;
-  HorizonPilot pilot(surface, goal.seed, {});
-  growth.pilot = pilot_watch.elapsed();
+  const Stopwatch calibration_watch;
+  GatherCalibration calibration(surface, {.seed = goal.seed});
+  growth.calibration = calibration_watch.elapsed();
   const Stopwatch sky_watch;
   const HeightMips mips = build_height_mips(surface);
-  PlannedSky sky = find_sky_for_totals(pilot, mips, goal, {}, {});
+  PlannedSky sky = find_sky_for_totals(mips, goal, {}, calibration, {});
   growth.sky = sky_watch.elapsed();
   const Stopwatch plan_watch;
-  Planned planned{.sky = {}, .gather = plan_gather(pilot, mips, goal.error, sky)};
+  Planned planned{.sky = {}, .gather = plan_gather(calibration, mips, goal.error, sky)};
   growth.plan = plan_watch.elapsed();
   planned.sky = std::move(sky.sky.sky_view_factor);
   growth.sky_azimuths = sky.plan.walk.azimuths;
@@ -151,7 +151,7 @@ void print_head(const Options& options) {
       "B/texel: peak of memory; sky, walks: azimuths and fineness of the sky and of the last two gathers\n"
       "RMSE: by exact walks\n"
       "%-6s %6s %6s %7s %7s %7s %7s %8s %8s %6s %8s %8s %-8s %-8s %7s %8s %8s\n",
-      kFixedWalk.azimuths, kFixedWalk.fineness, kAlbedo, options.error, "map", "size", "fixed", "pilot",
+      kFixedWalk.azimuths, kFixedWalk.fineness, kAlbedo, options.error, "map", "size", "fixed", "calibrate",
       "sky", "plan", "totals", "core-s", "wall-s", "others", "peak MB", "B/texel", "sky", "walks", "gathers",
       "RMSE A", "total");
 }
@@ -163,8 +163,8 @@ void print_row(const std::string& map, int size, const Growth& g) {
   const Cost all = g.all();
   std::printf(
       "%-6s %6d %6.2f %7.3f %7.3f %7.3f %7.3f %8.3f %8.3f %6.2f %8.0f %8.1f %-8s %-8s %7d %8.5f %8.5f\n",
-      map.c_str(), size, 1e9 * g.fixed_walk.core / (texels * kFixedWalk.azimuths), g.pilot.core, g.sky.core,
-      g.plan.core, g.totals.core, all.core, all.wall, all.others / all.wall, 1e-6 * g.peak_bytes,
+      map.c_str(), size, 1e9 * g.fixed_walk.core / (texels * kFixedWalk.azimuths), g.calibration.core,
+      g.sky.core, g.plan.core, g.totals.core, all.core, all.wall, all.others / all.wall, 1e-6 * g.peak_bytes,
       g.peak_bytes / texels, sky.c_str(), walks.c_str(), g.gathers, g.check.sky_rmse, g.check.total_rmse);
   std::fflush(stdout);
 }
@@ -173,17 +173,19 @@ void write_row(std::ostream& file, const std::string& map, int size, const Growt
   const double texels = static_cast<double>(size) * size;
   const Cost all = g.all();
   file << map << ',' << size << ',' << 1e9 * g.fixed_walk.core / (texels * kFixedWalk.azimuths) << ','
-       << g.pilot.core << ',' << g.sky.core << ',' << g.plan.core << ',' << g.totals.core << ',' << all.core
-       << ',' << all.wall << ',' << all.others << ',' << g.peak_bytes << ',' << g.peak_bytes / texels << ','
-       << g.sky_azimuths << ',' << g.sky_fineness << ',' << g.gather_azimuths << ',' << g.gather_fineness
-       << ',' << g.gathers << ',' << g.check.sky_rmse << ',' << g.check.total_rmse << '\n';
+       << g.calibration.core << ',' << g.sky.core << ',' << g.plan.core << ',' << g.totals.core << ','
+       << all.core << ',' << all.wall << ',' << all.others << ',' << g.peak_bytes << ','
+       << g.peak_bytes / texels << ',' << g.sky_azimuths << ',' << g.sky_fineness << ',' << g.gather_azimuths
+       << ',' << g.gather_fineness << ',' << g.gathers << ',' << g.check.sky_rmse << ',' << g.check.total_rmse
+       << '\n';
 }
 
 void run(const Options& options) {
   std::ofstream file;
   if (!options.csv.empty()) {
     file.open(options.csv);
-    file << "map,size,fixed_walk_core_ns,pilot_core_s,sky_core_s,plan_core_s,totals_core_s,core_s,wall_s,"
+    file << "map,size,fixed_walk_core_ns,calibration_core_s,sky_core_s,plan_core_s,totals_core_s,core_s,wall_"
+            "s,"
             "others_core_s,peak_bytes,bytes_per_texel,sky_azimuths,sky_fineness,gather_azimuths,"
             "gather_fineness,gathers,rmse_sky,rmse_total\n";
   }

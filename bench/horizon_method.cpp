@@ -4,14 +4,13 @@
 #include <string>
 
 #include "heightlight/transport.h"
-#include "transport/horizon_pilot.h"
 #include "transport/horizon_plan.h"
 #include "visibility/horizon_sky.h"
 
 namespace heightlight {
 namespace {
 
-constexpr std::uint64_t kSeed = 1;  // of the pilot's receivers, which are not the reference's
+constexpr std::uint64_t kSeed = 1;  // of the calibration sample, which are not the reference's
 
 Map walk_sky(const Surface& surface, const SkyPlan& plan) {
   return walk_horizon_sky(surface, build_height_mips(surface), plan).sky_view_factor;
@@ -46,8 +45,9 @@ Method planned_sky_method(const Surface& surface) {
     HorizonGoal goal;
     goal.error = 1.0 / inverse;
     const Watch unwatched;
-    HorizonPilot pilot(surface, kSeed, unwatched);
-    return walk_sky(surface, plan_sky(pilot, goal));
+    const HeightMips mips = build_height_mips(surface);
+    SkyCalibration calibration(surface, mips, {.seed = kSeed, .watch = unwatched});
+    return walk_sky(surface, plan_sky(calibration, goal));
   };
   return method;
 }

@@ -70,7 +70,7 @@ struct SeenSky {
 
 /// Wall seconds of each step.
 struct SolveTimes {
-  double visibility = 0;  ///< pilot, walks, links
+  double visibility = 0;  ///< planning, walks, links
   double transport = 0;   ///< setting up the operator: for stored links, counting and checking them
   double bounces = 0;     ///< without what the sink of the bounces took
   double sink = 0;        ///< what the sink of the bounces took

@@ -161,7 +161,8 @@ struct GatherPlan {
   WalkOptions walk = {.azimuths = 8};  ///< azimuths: of each of the last two gathers of a total, and of
                                        ///< Transport::gather
   int first_bounce_azimuths = 32;      ///< of the first of single bounces
-  double error = 0;  ///< RMSE of the total at ρ = 0.8 expected from gathers alone; 0 where there was no pilot
+  double error = 0;       ///< RMSE of the total at ρ = 0.8 expected from gathers alone; 0 of a plan that was
+                          ///< not made for an error
   double unevenness = 1;  ///< of the light that the azimuths are planned for, beside the sky's: how much more
                           ///< its radiosity varies over what is seen. More uneven light gets more of them
 };

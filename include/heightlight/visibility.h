@@ -36,9 +36,10 @@ struct SkyPlan {
   WalkOptions walk = {};
   double full_from = 0;  ///< > 0: RMS of 1 − A, by every other azimuth, in a block of 4 × 16 receivers from
                          ///< which all azimuths are walked; their number is a multiple of 4
-  double full_share = 1;  ///< of the blocks, those that walk all azimuths, by the pilot
-  double error = 0;       ///< RMSE of A expected, from the pilot; 0 where there was none
-  double sampled = 0;     ///< the part of it that azimuths share, from sampling
+  double full_share = 1;  ///< of the blocks, those that walk all azimuths, by the calibration sample
+  double error =
+      0;  ///< RMSE of A expected, from the calibration sample; 0 of a plan that was not made for an error
+  double sampled = 0;  ///< the part of it that azimuths share, from sampling
 };
 
 /// What lies below the horizontal of a place in directions that miss the surface, as those do that leave an

@@ -7,7 +7,6 @@
 #include "heightlight/transport.h"
 #include "test_maps.h"
 #include "transport/gathered_ones.h"
-#include "transport/horizon_pilot.h"
 #include "transport/horizon_plan.h"
 #include "transport/root_mean_square.h"
 #include "transport/simulated.h"
@@ -35,7 +34,7 @@ struct Goal {
   double error;
 };
 
-/// Plans, bounces at ρ = 0.8, and has exact walks of receivers that the pilot did not see judge the result.
+/// Plans, bounces at ρ = 0.8, and has exact walks of receivers outside the calibration sample judge the result.
 HorizonCheck reach(const Goal& goal, Boundary boundary) {
   const Surface surface = build_surface(make_synth_map(goal.shape.c_str(), goal.size, boundary, goal.relief));
   const PlannedTransport planned = plan_horizon_transport(surface, {.error = goal.error});
@@ -49,7 +48,7 @@ void check_goal(const Goal& goal, Boundary boundary) {
   INFO(goal.shape << ", " << goal.size << ", relief " << goal.relief << ", " << to_string(boundary)
                   << ", error " << goal.error << ": A " << check.sky_rmse << ", total " << check.total_rmse);
   CHECK(check.receivers >= 256);
-  // Monte Carlo: the pilot's RMSE of a few hundred receivers whose errors have long tails, in a few tiles,
+  // Monte Carlo: the RMSE of a few hundred receivers whose errors have long tails, in a few tiles,
   // against that of 256 others: a factor of 1.5. (Measured: 0.5 to 1.05 for A, 0.15 to 1.15 for the total.)
   CHECK(check.sky_rmse < 1.5 * goal.error);
   CHECK(check.total_rmse < 1.5 * goal.error);

@@ -85,7 +85,7 @@ class Trial {
   void find_exactly(const Watch& watch) {
     const ExactWalker walker(surface_, kTriedAzimuths, exact_reach(goal_.reach));
     std::vector<std::optional<TrialReceiver>> found(blocks_.size() * kPerBlock);
-    Progress progress("pilot of horizons", static_cast<std::int64_t>(found.size()), watch);
+    Progress progress("calibration of horizons", static_cast<std::int64_t>(found.size()), watch);
     parallel_for(
         static_cast<std::int64_t>(found.size()),
         [&](std::int64_t i) {

@@ -1,6 +1,5 @@
 #include "solve/reference_sky.h"
 #include "solve/solver.h"
-#include "transport/horizon_pilot.h"
 #include "transport/horizon_plan.h"
 #include "visibility/horizon_sky.h"
 
@@ -13,13 +12,15 @@ constexpr double kMomentShare = 0.6;
 
 /// The plan that there is, or one made now. Sparse azimuths are planned without a reach, and left out with
 /// one.
-SkyPlan choose_plan(const Task& task, const Results& results) {
+SkyPlan choose_plan(const Task& task, const HeightMips& mips, const Results& results) {
   const Request& request = task.request;
   if (request.accuracy.plan) return request.accuracy.plan->sky;
   const bool alike = !request.wanted.reach && request.wanted.below == BelowHorizontal::sky;
   if (results.evidence.plan && alike) return results.evidence.plan->sky;
-  HorizonPilot pilot(task.surface, request.accuracy.seed, request.watch, request.wanted.below);
-  SkyPlan plan = plan_sky(pilot, plan_goal(request, request.wanted.moments.first));
+  SkyCalibration calibration(
+      task.surface, mips,
+      {.seed = request.accuracy.seed, .watch = request.watch, .below = request.wanted.below});
+  SkyPlan plan = plan_sky(calibration, plan_goal(request, request.wanted.moments.first));
   if (request.wanted.reach) {
     plan.full_from = 0;
     plan.full_share = 1;
@@ -40,10 +41,10 @@ void take(HorizonSky sky, Results& results) {
 void walk_sky_of(const Task& task, Results& results) {
   const Request& request = task.request;
   const Wanted& wanted = request.wanted;
-  const SkyPlan plan = choose_plan(task, results);
+  const HeightMips mips = build_height_mips(task.surface);
+  const SkyPlan plan = choose_plan(task, mips, results);
   if (!results.evidence.plan) results.evidence.plan.emplace();
   results.evidence.plan->sky = plan;
-  const HeightMips mips = build_height_mips(task.surface);
   if (wants_sky(wanted) && results.sky_view_factor.size() == 0)
     take(walk_horizon_sky(task.surface, mips, plan, task_of(wanted), request.watch), results);
   if (wanted.horizon_rad.empty()) return;

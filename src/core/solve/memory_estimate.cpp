@@ -4,7 +4,7 @@
 #include "solve/solver.h"
 #include "surface/maximum_pyramid.h"
 #include "transport/bounce_check.h"
-#include "transport/horizon_pilot.h"
+#include "transport/gather_calibration.h"
 #include "transport/map_gather.h"
 #include "visibility/height_mips.h"
 #include "visibility/horizon_sky.h"
@@ -68,15 +68,15 @@ std::uint64_t bouncing_bytes(int width, int height, const Request& request) {
   return texels * (6 * kVector + 2 * kMap + tail) + gathers + check;
 }
 
-/// Of planning walks: their pilot, the best gather so far, and the next, which is tried on light that the sky
-/// or each channel of one's own may make.
+/// Of planning walks: what calibrates them, the best gather so far, and the next, which is tried on light
+/// that the sky or each channel of one's own may make.
 std::uint64_t planning_bytes(int width, int height, const Request& request) {
   if (!by_walks(request)) return 0;
-  const std::uint64_t pilot = horizon_pilot_bytes(width, height);
-  if (!needs_operator(request.wanted)) return pilot;
+  if (!needs_operator(request.wanted)) return 0;
   const auto texels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
   const std::uint64_t lights = std::max<std::uint64_t>(1, request.wanted.direct.size());
-  return pilot + gather_bytes(width, height, 1) + gather_bytes(width, height, 0) + texels * lights * kMap;
+  return gather_calibration_bytes(width, height) + gather_bytes(width, height, 1) +
+         gather_bytes(width, height, 0) + texels * lights * kMap;
 }
 
 /// What comes one after the other: each has gone when the next begins.
@@ -97,7 +97,7 @@ std::uint64_t estimate_memory(int width, int height, const Request& request) {
   per_texel += horizon_sky_bytes(wanted.moments) + kMap * wanted.horizon_rad.size();
   per_texel += kMap * wanted.definitions.size();
   std::uint64_t pyramids = height_mips_bytes(width, height);
-  pyramids += maximum_pyramid_bytes(width, height);  // of exact walks: the pilot's, the checks'
+  pyramids += maximum_pyramid_bytes(width, height);  // of exact walks: those that calibrate, the checks'
   if (std::find(wanted.definitions.begin(), wanted.definitions.end(), SkyDefinition::openness_negative) !=
       wanted.definitions.end())
     per_texel += kMap + sizeof(Vector3);  // the surface upside down; its pyramids come after the others

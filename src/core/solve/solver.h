@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "heightlight/solve.h"
+#include "transport/horizon_check.h"
 
 // The parts of one call, in the order in which they run. Each takes what it needs from the request and puts
 // what it finds into the results.
@@ -34,8 +35,7 @@ bool lights_from_above(const Wanted& wanted);
 /// Whether the operator's own sky is the one that was asked for.
 bool keeps_sky(const Wanted& wanted);
 
-/// An error that is found to be more than so many times the one wanted is missed.
-constexpr double kMissed = 1.15;
+/// A total that misses the error wanted by more than kMissed (horizon_check.h) misses it by much from here.
 constexpr double kMissedByMuch = 1.4;
 
 /// Of the error wanted, for how much of it totals that miss it are found once more.

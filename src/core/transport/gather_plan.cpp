@@ -43,14 +43,15 @@ double azimuths_together(int left, int last_azimuths) {
 /// to 16.
 class AzimuthErrors {
  public:
-  AzimuthErrors(const HorizonPilot& pilot, const Map& x) : measured_(pilot.gather_azimuth_errors(x)) {
+  AzimuthErrors(const GatherCalibration& calibration, const Map& x)
+      : measured_(calibration.azimuth_errors(calibration.see_field(x))) {
     find_order();
   }
 
   /// The largest under any of the lights.
-  AzimuthErrors(const HorizonPilot& pilot, const std::vector<PlanLight>& lights) {
+  AzimuthErrors(const GatherCalibration& calibration, const std::vector<PlanLight>& lights) {
     for (const PlanLight& light : lights) {
-      const HorizonPilot::AzimuthTrials found = pilot.gather_azimuth_errors(light.radiosity);
+      const GatherCalibration::AzimuthTrials found = calibration.azimuth_errors(light.seen);
       for (std::size_t i = 0; i < found.size(); ++i) measured_[i] = std::max(measured_[i], found[i]);
     }
     find_order();
@@ -66,7 +67,7 @@ class AzimuthErrors {
     if (measured_[3] > 0) order_ = std::clamp(std::log2(measured_[2] / measured_[3]), 0.5, 1.5);
   }
 
-  HorizonPilot::AzimuthTrials measured_{};
+  GatherCalibration::AzimuthTrials measured_{};
   double order_ = 1;
 };
 
@@ -166,45 +167,50 @@ PlanLight plan_light(const Surface& surface, const Map& sky, const TexelVector& 
                                       const double bounced = guess_total(share, kPlanAlbedo) - share;
                                       return direct[i] * per_unit + per_bounced * bounced;
                                     }),
+          .seen = {},
           .per_sky = 0,
           .unevenness = unevenness({.direct = &direct, .albedo = kPlanAlbedo}, sky, surface)};
 }
 
 /// RMSE that sampling brings into a total, under the light that it brings most into.
-double sampling_error(HorizonPilot& pilot, const MapGather& gather, const std::vector<PlanLight>& lights) {
+double sampling_error(const GatherCalibration& calibration, const MapGather& gather,
+                      const std::vector<PlanLight>& lights) {
   double largest = 0;
   for (const PlanLight& light : lights) {
     FieldPyramid pyramid = gather.make_pyramid();
     pyramid.fill(light.radiosity);
-    largest = std::max(largest, pilot.gather_sampling_error(gather, pyramid, light.radiosity));
+    largest = std::max(largest, calibration.sampling_error(gather, pyramid, light.seen));
   }
   return largest;
 }
 
 }  // namespace
 
-std::vector<PlanLight> plan_lights(const Surface& surface, const Map& sky, const HorizonGoal& goal) {
+std::vector<PlanLight> plan_lights(const GatherCalibration& calibration, const Map& sky,
+                                   const HorizonGoal& goal) {
   std::vector<PlanLight> lights;
-  for (const TexelVector& direct : goal.direct) lights.push_back(plan_light(surface, sky, direct));
+  for (const TexelVector& direct : goal.direct)
+    lights.push_back(plan_light(calibration.surface(), sky, direct));
   if (lights.empty()) {
     const auto total = [&](std::size_t i) { return guess_total(double{sky.values[i]}, kPlanAlbedo); };
-    lights.push_back({.radiosity = radiosity_of(sky, total)});
+    lights.push_back({.radiosity = radiosity_of(sky, total), .seen = {}});
   }
+  for (PlanLight& light : lights) light.seen = calibration.see_field(light.radiosity);
   return lights;
 }
 
-PlannedGather plan_gather(HorizonPilot& pilot, const HeightMips& mips, double error,
+PlannedGather plan_gather(const GatherCalibration& calibration, const HeightMips& mips, double error,
                           const PlannedSky& planned_sky) {
   PlannedGather planned;
   planned.plan.walk.peak_share = planned_sky.plan.walk.peak_share;
   planned.plan.walk.fineness = 16;
-  if (pilot.empty()) {
-    planned.gather = std::make_unique<MapGather>(pilot.surface(), mips, planned.plan.walk);
+  if (calibration.empty()) {
+    planned.gather = std::make_unique<MapGather>(calibration.surface(), mips, planned.plan.walk);
     return planned;
   }
   const Map& sky = planned_sky.sky.sky_view_factor;
   const std::vector<PlanLight>& lights = planned_sky.lights;
-  const AzimuthErrors errors(pilot, lights);
+  const AzimuthErrors errors(calibration, lights);
   planned.plan.unevenness = 0;
   for (const PlanLight& light : lights)
     planned.plan.unevenness = std::max(planned.plan.unevenness, light.unevenness);
@@ -213,8 +219,8 @@ PlannedGather plan_gather(HorizonPilot& pilot, const HeightMips& mips, double er
   for (const int fineness : {8, 12, 16, 24, 32, 48, 64}) {
     GatherPlan plan = planned.plan;
     plan.walk.fineness = fineness;
-    auto gather = std::make_unique<MapGather>(pilot.surface(), mips, plan.walk);
-    const double sampled = sampling_error(pilot, *gather, lights);
+    auto gather = std::make_unique<MapGather>(calibration.surface(), mips, plan.walk);
+    const double sampled = sampling_error(calibration, *gather, lights);
     const Candidate candidate = choose_azimuths(errors, sampled, wanted, plan);
     if (!planned.gather || is_better(candidate, best, wanted)) {
       best = candidate;
@@ -223,7 +229,8 @@ PlannedGather plan_gather(HorizonPilot& pilot, const HeightMips& mips, double er
     if (sampled <= kFineEnough * wanted) break;
   }
   planned.plan = best.plan;
-  planned.plan.first_bounce_azimuths = choose_bounce_azimuths({pilot, sky}, kBounceShare * kTotalAim * error);
+  planned.plan.first_bounce_azimuths =
+      choose_bounce_azimuths({calibration, sky}, kBounceShare * kTotalAim * error);
   return planned;
 }
 

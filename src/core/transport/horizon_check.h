@@ -24,6 +24,9 @@ struct FoundMaps {
   std::vector<FoundTotal> totals = {};
 };
 
+/// A total that errs by more than this times the error wanted misses it.
+constexpr double kMissed = 1.15;
+
 /// Azimuths that leave little beside the error wanted: on bricks 128 leave .0001 of A and .0003 of a gather,
 /// 64 twice that and more.
 int azimuths_for_check(double error_wanted);

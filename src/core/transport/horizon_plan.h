@@ -3,13 +3,15 @@
 #include <memory>
 #include <vector>
 
-#include "transport/horizon_pilot.h"
+#include "heightlight/transport.h"
+#include "transport/gather_calibration.h"
 #include "transport/map_gather.h"
+#include "transport/sky_calibration.h"
 #include "visibility/horizon_sky.h"
 
 namespace heightlight {
 
-/// Of the error wanted, what plans aim at: the pilot's sample is small, and misses some of the tails.
+/// Of the error wanted, what plans aim at: the calibration samples are small, and miss some of the tails.
 constexpr double kSkyAim = 0.8;
 constexpr double kTotalAim = 0.85;
 
@@ -18,19 +20,21 @@ constexpr double kTotalAim = 0.85;
 double sky_cost(const SkyPlan& plan);
 
 /// How the sky is to be walked.
-SkyPlan plan_sky(HorizonPilot& pilot, const HorizonGoal& goal);
+SkyPlan plan_sky(SkyCalibration& calibration, const HorizonGoal& goal);
 
 /// Light that totals are planned for: its radiosity / π at kPlanAlbedo, in units of the brightest direct
 /// light, as closed forms have it. What gathers make of it errs by about as much as what they make of the
 /// true one.
 struct PlanLight {
   Map radiosity;
-  double per_sky = 1;     ///< what direct light changes by with A
-  double unevenness = 1;  ///< as GatherPlan has it
+  std::vector<GatherCalibration::SeenField> seen;  ///< of the radiosity, by the calibration's receivers
+  double per_sky = 1;                              ///< what direct light changes by with A
+  double unevenness = 1;                           ///< as GatherPlan has it
 };
 
 /// Those of a goal, at least one.
-std::vector<PlanLight> plan_lights(const Surface& surface, const Map& sky, const HorizonGoal& goal);
+std::vector<PlanLight> plan_lights(const GatherCalibration& calibration, const Map& sky,
+                                   const HorizonGoal& goal);
 
 /// A sky as it was walked, and the RMSE of a total at kPlanAlbedo that what A errs by brings.
 struct PlannedSky {
@@ -42,8 +46,8 @@ struct PlannedSky {
 
 /// A total hangs on A by more than A's own error, where that is of one sign along a wall. Where it would take
 /// most of the total's error, A is walked once more, and better than it was wanted.
-PlannedSky find_sky_for_totals(HorizonPilot& pilot, const HeightMips& mips, const HorizonGoal& goal,
-                               const SkyWanted& wanted, const Watch& watch);
+PlannedSky find_sky_for_totals(const HeightMips& mips, const HorizonGoal& goal, const SkyWanted& wanted,
+                               GatherCalibration& gathers, const Watch& watch);
 
 /// How gathers are to be walked, and what walks them.
 struct PlannedGather {
@@ -52,7 +56,7 @@ struct PlannedGather {
 };
 
 /// Once the sky is known; `error` is the RMSE wanted of a total.
-PlannedGather plan_gather(HorizonPilot& pilot, const HeightMips& mips, double error,
+PlannedGather plan_gather(const GatherCalibration& calibration, const HeightMips& mips, double error,
                           const PlannedSky& planned_sky);
 
 }  // namespace heightlight

@@ -110,10 +110,10 @@ PlannedTransport plan_horizon_transport(const Surface& surface, const HorizonGoa
   if (!(goal.error > 0)) throw UsageError("error", std::to_string(goal.error), "must be positive");
   if (goal.azimuths > 0) check_azimuths(goal.azimuths);
   PlannedTransport planned;
-  HorizonPilot pilot(surface, goal.seed, watch);
   const HeightMips mips = build_height_mips(surface);
-  PlannedSky sky = find_sky_for_totals(pilot, mips, goal, wanted, watch);
-  PlannedGather gather = plan_gather(pilot, mips, goal.error, sky);
+  GatherCalibration calibration(surface, {.seed = goal.seed, .watch = watch});
+  PlannedSky sky = find_sky_for_totals(mips, goal, wanted, calibration, watch);
+  PlannedGather gather = plan_gather(calibration, mips, goal.error, sky);
   planned.plan = {.sky = sky.plan, .gather = gather.plan};
   planned.moments = std::move(sky.sky.moments);
   planned.transport =

@@ -33,15 +33,15 @@ int fewest_azimuths(const SamplingError& sampling, double tried, double error) {
     const double few = tried * std::pow(double{kTriedAzimuths} / azimuths, kAzimuthOrder);
     return std::hypot(sampling.at(azimuths), few);
   };
-  while (azimuths <= HorizonPilot::kManyAzimuths && leaves() > error) azimuths += 2;
+  while (azimuths <= SkyCalibration::kManyAzimuths && leaves() > error) azimuths += 2;
   return azimuths;
 }
 
 /// The walk that should reach the error at the least cost, as far as its sampling goes. Where no sampling is
 /// good enough, the best.
-WalkOptions choose_sampling(HorizonPilot& pilot, double error, int azimuths, SamplingError& reached) {
-  constexpr int kMany = HorizonPilot::kManyAzimuths;
-  const double tried = pilot.azimuth_error({kTriedAzimuths, 8, 0.3F});
+WalkOptions choose_sampling(SkyCalibration& calibration, double error, int azimuths, SamplingError& reached) {
+  constexpr int kMany = SkyCalibration::kManyAzimuths;
+  const double tried = calibration.azimuth_error({kTriedAzimuths, 8, 0.3F});
   WalkOptions best;
   double least = std::numeric_limits<double>::infinity();
   double least_sampling = least;
@@ -50,10 +50,10 @@ WalkOptions choose_sampling(HorizonPilot& pilot, double error, int azimuths, Sam
     // A finer walk that had no sampling error at all would not pay any more.
     const int at_least = azimuths > 0 ? azimuths : fewest_azimuths({}, tried, error);
     if (at_least * azimuth_cost(fineness) >= least) break;
-    SamplingError sampling = pilot.sampling_error(fineness, share);
+    SamplingError sampling = calibration.sampling_error(fineness, share);
     while (share < kHighestPeakShare) {
       const float more = share + kPeakShareStep;
-      const SamplingError found = pilot.sampling_error(fineness, more);
+      const SamplingError found = calibration.sampling_error(fineness, more);
       if (found.at(kMany) >= sampling.at(kMany)) break;
       sampling = found;
       share = more;
@@ -76,24 +76,24 @@ WalkOptions choose_sampling(HorizonPilot& pilot, double error, int azimuths, Sam
 
 /// The fewest azimuths that leave no more than the error, in steps of a tenth from the number that a few
 /// tell, upwards or downwards.
-WalkOptions choose_azimuths(HorizonPilot& pilot, WalkOptions options, double error, double& reached) {
+WalkOptions choose_azimuths(SkyCalibration& calibration, WalkOptions options, double error, double& reached) {
   options.azimuths = kTriedAzimuths;
-  const double tried = pilot.azimuth_error(options);
+  const double tried = calibration.azimuth_error(options);
   const double guess = kTriedAzimuths * std::pow(tried / error, 1 / kAzimuthOrder);
   options.azimuths =
-      std::clamp(static_cast<int>(std::min(guess, double{HorizonPilot::kManyAzimuths})) / 2 * 2,
-                 kFewestAzimuths, HorizonPilot::kManyAzimuths);
-  reached = pilot.azimuth_error(options);
+      std::clamp(static_cast<int>(std::min(guess, double{SkyCalibration::kManyAzimuths})) / 2 * 2,
+                 kFewestAzimuths, SkyCalibration::kManyAzimuths);
+  reached = calibration.azimuth_error(options);
   const auto step = [](int azimuths) { return std::max(2, azimuths / 20 * 2); };
-  while (reached > error && options.azimuths < HorizonPilot::kManyAzimuths) {
+  while (reached > error && options.azimuths < SkyCalibration::kManyAzimuths) {
     options.azimuths += step(options.azimuths);
-    reached = pilot.azimuth_error(options);
+    reached = calibration.azimuth_error(options);
     if (reached <= error) return options;
   }
   while (reached <= error && options.azimuths > kFewestAzimuths) {
     WalkOptions fewer = options;
     fewer.azimuths -= step(options.azimuths);
-    const double found = pilot.azimuth_error(fewer);
+    const double found = calibration.azimuth_error(fewer);
     if (found > error) break;
     options = fewer;
     reached = found;
@@ -102,15 +102,15 @@ WalkOptions choose_azimuths(HorizonPilot& pilot, WalkOptions options, double err
 }
 
 /// Somewhat more azimuths, of which open ground walks every other one, where that saves much: of what lies on
-/// which side of the least share, the pilot's few strips tell little.
-void choose_sparse(HorizonPilot& pilot, double error, SkyPlan& plan, double& reached) {
+/// which side of the least share, the calibration's few strips tell little.
+void choose_sparse(SkyCalibration& calibration, double error, SkyPlan& plan, double& reached) {
   double least = kWorthSparse * plan.walk.azimuths;
   const WalkOptions uniform = plan.walk;
   for (const double more : {1.0, 1.1, 1.2, 1.35}) {
     WalkOptions options = uniform;
     options.azimuths = static_cast<int>(std::ceil(more * uniform.azimuths / 4)) * 4;
-    if (options.azimuths > HorizonPilot::kManyAzimuths) break;
-    const HorizonPilot::Sparse sparse = pilot.find_sparse(options, error);
+    if (options.azimuths > SkyCalibration::kManyAzimuths) break;
+    const SkyCalibration::Sparse sparse = calibration.find_sparse(options, error);
     const double cost = options.azimuths * (1 + sparse.full_share) / 2;
     if (sparse.error > error || cost >= least) continue;
     least = cost;
@@ -127,45 +127,47 @@ double sky_cost(const SkyPlan& plan) {
   return plan.walk.azimuths * azimuth_cost(plan.walk.fineness) * (1 + plan.full_share) / 2;
 }
 
-SkyPlan plan_sky(HorizonPilot& pilot, const HorizonGoal& goal) {
+SkyPlan plan_sky(SkyCalibration& calibration, const HorizonGoal& goal) {
   SkyPlan plan;
   if (goal.azimuths > 0) plan.walk.azimuths = goal.azimuths;
-  if (pilot.empty()) return plan;
+  if (calibration.empty()) return plan;
   const double error = kSkyAim * goal.error * goal.sky_share;
   SamplingError sampling;
   double few = 0;
-  plan.walk = choose_sampling(pilot, error, goal.azimuths, sampling);
-  const double sampled = sampling.at(HorizonPilot::kManyAzimuths);  // fewer are told by azimuth_error
+  plan.walk = choose_sampling(calibration, error, goal.azimuths, sampling);
+  const double sampled = sampling.at(SkyCalibration::kManyAzimuths);  // fewer are told by azimuth_error
   if (goal.azimuths > 0) {
     plan.walk.azimuths = goal.azimuths;
-    few = pilot.azimuth_error(plan.walk);
+    few = calibration.azimuth_error(plan.walk);
   } else {
     const double rest = std::sqrt(std::max(error * error - sampled * sampled, 0.25 * error * error));
-    plan.walk = choose_azimuths(pilot, plan.walk, rest, few);
+    plan.walk = choose_azimuths(calibration, plan.walk, rest, few);
     // Bent normals, of finer goals, lose more by it than A does.
-    if (goal.sky_share == 1) choose_sparse(pilot, rest, plan, few);
+    if (goal.sky_share == 1) choose_sparse(calibration, rest, plan, few);
   }
   plan.error = std::hypot(sampled, few);
   plan.sampled = sampled;
   return plan;
 }
 
-PlannedSky find_sky_for_totals(HorizonPilot& pilot, const HeightMips& mips, const HorizonGoal& goal,
-                               const SkyWanted& wanted, const Watch& watch) {
+PlannedSky find_sky_for_totals(const HeightMips& mips, const HorizonGoal& goal, const SkyWanted& wanted,
+                               GatherCalibration& gathers, const Watch& watch) {
   constexpr double kMostOfTotal = 0.75;
   // Gathers pass on what neighbours err alike: on bricks and fractal ground totals changed by 0.9 to 1.6
   // times the last step's share of what A errs by, the most where sampling costs more than few azimuths do.
   constexpr double kPassedOn = 1.2;
   constexpr double kLeastOfError = 0.35;
+  const Surface& surface = gathers.surface();
+  SkyCalibration calibration(surface, mips, {.seed = goal.seed, .watch = watch});
   PlannedSky planned;
   const auto find = [&](const HorizonGoal& aimed) {
-    planned.plan = plan_sky(pilot, aimed);
-    planned.sky = walk_horizon_sky(pilot.surface(), mips, planned.plan, {.wanted = wanted}, watch);
-    pilot.see_classes(planned.sky.sky_view_factor, kPlanAlbedo);
-    planned.lights = plan_lights(pilot.surface(), planned.sky.sky_view_factor, goal);
+    planned.plan = plan_sky(calibration, aimed);
+    planned.sky = walk_horizon_sky(surface, mips, planned.plan, {.wanted = wanted}, watch);
+    gathers.see_classes(planned.sky.sky_view_factor, kPlanAlbedo);
+    planned.lights = plan_lights(gathers, planned.sky.sky_view_factor, goal);
     planned.effect = 0;
     for (const PlanLight& light : planned.lights) {
-      const double effect = kPassedOn * pilot.sky_effect(light.radiosity, light.per_sky) * planned.plan.error;
+      const double effect = kPassedOn * gathers.sky_effect(light.seen, light.per_sky) * planned.plan.error;
       planned.effect = std::max(planned.effect, effect);
     }
   };

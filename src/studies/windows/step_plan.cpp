@@ -59,8 +59,10 @@ HorizonPlan find_plan(const Work& work, const Surface& surface) {
   if (total_channels(work) > 0) {
     plan = plan_horizon_transport(surface, goal, {}, options.watch).plan;
   } else {
-    HorizonPilot pilot(surface, options.seed, options.watch, options.below);
-    plan.sky = plan_sky(pilot, goal);
+    const HeightMips mips = build_height_mips(surface);
+    SkyCalibration calibration(surface, mips,
+                               {.seed = options.seed, .watch = options.watch, .below = options.below});
+    plan.sky = plan_sky(calibration, goal);
   }
   if (options.reach) {
     plan.sky.full_from = 0;
