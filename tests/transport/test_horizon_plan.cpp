@@ -34,7 +34,8 @@ struct Goal {
   double error;
 };
 
-/// Plans, bounces at ρ = 0.8, and has exact walks of receivers outside the calibration sample judge the result.
+/// Plans, bounces at ρ = 0.8, and has exact walks of receivers outside the calibration sample judge the
+/// result.
 HorizonCheck reach(const Goal& goal, Boundary boundary) {
   const Surface surface = build_surface(make_synth_map(goal.shape.c_str(), goal.size, boundary, goal.relief));
   const PlannedTransport planned = plan_horizon_transport(surface, {.error = goal.error});
