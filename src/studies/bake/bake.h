@@ -138,7 +138,7 @@ struct BakeOptions {
   bool dither = false;             ///< blue noise instead of rounding; 8 bits only
   double error = 0.002;            ///< RMSE wanted of A, of the total, and of specular_occlusion
   int azimuths = 0;                ///< > 0: those of the sky, fixed
-  std::uint64_t seed = 1;          ///< of pilot, check and dither
+  std::uint64_t seed = 1;          ///< of calibration, check and dither
   std::uint64_t memory = ~0ULL;    ///< bytes that all of it may take
   std::size_t light_channels = 0;  ///< > 0: multibounce and direct are of another light than an even sky
   std::function<BakedLight(const Surface&)> find_light = {};  ///< which this finds, with so many channels
