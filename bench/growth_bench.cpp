@@ -184,9 +184,8 @@ void run(const Options& options) {
   std::ofstream file;
   if (!options.csv.empty()) {
     file.open(options.csv);
-    file << "map,size,fixed_walk_core_ns,calibration_core_s,sky_core_s,plan_core_s,totals_core_s,core_s,wall_"
-            "s,"
-            "others_core_s,peak_bytes,bytes_per_texel,sky_azimuths,sky_fineness,gather_azimuths,"
+    file << "map,size,fixed_walk_core_ns,calibration_core_s,sky_core_s,plan_core_s,totals_core_s,core_s,"
+            "wall_s,others_core_s,peak_bytes,bytes_per_texel,sky_azimuths,sky_fineness,gather_azimuths,"
             "gather_fineness,gathers,rmse_sky,rmse_total\n";
   }
   print_head(options);

@@ -10,7 +10,7 @@
 namespace heightlight {
 namespace {
 
-constexpr std::uint64_t kSeed = 1;  // of the calibration sample, which are not the reference's
+constexpr std::uint64_t kSeed = 1;  // of the calibration sample, which is not the reference's
 
 Map walk_sky(const Surface& surface, const SkyPlan& plan) {
   return walk_horizon_sky(surface, build_height_mips(surface), plan).sky_view_factor;

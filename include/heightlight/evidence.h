@@ -115,8 +115,8 @@ struct Evidence {
   int threads = 1;
 };
 
-/// Says in words which errors the checks found to be 15 % or more above the one wanted; empty where none
-/// is, or where none was wanted.
+/// Says in words which errors the checks found to be 15 % or more above the one wanted, or of totals less
+/// where the check's standard error leaves that open; empty where none is, or where none was wanted.
 std::string missed_error(const Evidence& evidence);
 
 /// All that speaks against a solution, a line each: an error that is missed, a linear solve that did not

@@ -237,9 +237,9 @@ struct CheckOptions {
   Watch watch = {};
 };
 
-/// Checks totals at the same receivers, one figure each: 256 receivers, and up to three times as many while
-/// the standard error of any figure passes a tenth of it, unless it clearly meets the error wanted. `sky` is
-/// A per texel, as found.
+/// Checks totals at the same receivers, one figure each: 512 receivers, and up to four times as many while
+/// the standard error of any figure passes a tenth of it or leaves open whether the error wanted is missed,
+/// unless it clearly meets it. `sky` is A per texel, as found.
 std::vector<HorizonCheck> check_by_exact_walks(const Surface& surface, const TexelVector& sky,
                                                const std::vector<CheckedTotal>& totals,
                                                const CheckOptions& options = {});

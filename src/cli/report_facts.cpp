@@ -17,10 +17,11 @@ namespace heightlight {
 namespace {
 
 /// An error beside the one wanted; checks themselves are uncertain by some percent.
-PageFact error_fact(const std::string& name, double error, const Evidence& evidence) {
+PageFact error_fact(const std::string& name, double error, const Evidence& evidence,
+                    double standard_error = 0) {
   const double wanted = evidence.error_wanted;
   if (wanted <= 0) return {.name = name, .value = fmt::format("{:.2g}", error)};
-  const bool missed = error > kMissed * wanted;
+  const bool missed = is_missed(error, wanted, standard_error);
   return {.name = name,
           .value = fmt::format("{:.2g} ({:g} wanted{})", error, wanted,
                                error > wanted && !missed ? ", which the check cannot tell apart" : ""),
@@ -53,12 +54,13 @@ void add_sky_check(const SkyCheck& check, const Evidence& evidence, std::vector<
 void add_total_checks(const Evidence& evidence, std::vector<PageFact>& facts) {
   const HorizonCheck& first = evidence.total_checks.front();
   facts.push_back(error_fact("RMSE of the sky view factor", first.sky_rmse, evidence));
-  double worst = 0;
-  for (const HorizonCheck& check : evidence.total_checks) worst = std::max(worst, check.total_rmse);
+  const HorizonCheck& worst = *std::max_element(
+      evidence.total_checks.begin(), evidence.total_checks.end(),
+      [](const HorizonCheck& a, const HorizonCheck& b) { return a.total_rmse < b.total_rmse; });
   const std::size_t count = evidence.total_checks.size();
   const std::string name =
       count == 1 ? "RMSE of the total" : fmt::format("RMSE of the total, the worst of {} albedos", count);
-  facts.push_back(error_fact(name, worst, evidence));
+  facts.push_back(error_fact(name, worst.total_rmse, evidence, worst.total_standard_error));
   facts.push_back({.name = "Checked by",
                    .value = fmt::format("exact walks along {} azimuths from {} texels", first.azimuths,
                                         first.receivers)});

@@ -102,8 +102,9 @@ bool refine_totals(const Task& task, const std::vector<LightSystem>& systems, Ch
   std::vector<std::size_t> little;
   std::vector<std::size_t> much;
   for (std::size_t i = 0; i < systems.size(); ++i) {
-    const double reached = checked.checks[i].total_rmse / wanted;
-    if (reached > kMissed) (reached > kMissedByMuch || systems[i].varying ? much : little).push_back(i);
+    const HorizonCheck& check = checked.checks[i];
+    if (!is_missed(check.total_rmse, wanted, check.total_standard_error)) continue;
+    (check.total_rmse > kMissedByMuch * wanted || systems[i].varying ? much : little).push_back(i);
   }
   if (!little.empty()) find_again(task, systems, little, kFiner, checked);
   if (!much.empty()) find_again(task, systems, much, kMuchFiner, checked);

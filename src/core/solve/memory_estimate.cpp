@@ -6,6 +6,7 @@
 #include "transport/bounce_check.h"
 #include "transport/gather_calibration.h"
 #include "transport/map_gather.h"
+#include "transport/sky_calibration.h"
 #include "visibility/height_mips.h"
 #include "visibility/horizon_sky.h"
 
@@ -72,10 +73,11 @@ std::uint64_t bouncing_bytes(int width, int height, const Request& request) {
 /// that the sky or each channel of one's own may make.
 std::uint64_t planning_bytes(int width, int height, const Request& request) {
   if (!by_walks(request)) return 0;
-  if (!needs_operator(request.wanted)) return 0;
+  const std::uint64_t sky = sky_calibration_bytes(width, height);
+  if (!needs_operator(request.wanted)) return sky;
   const auto texels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
   const std::uint64_t lights = std::max<std::uint64_t>(1, request.wanted.direct.size());
-  return gather_calibration_bytes(width, height) + gather_bytes(width, height, 1) +
+  return sky + gather_calibration_bytes(width, height, lights) + gather_bytes(width, height, 1) +
          gather_bytes(width, height, 0) + texels * lights * kMap;
 }
 

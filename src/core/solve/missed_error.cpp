@@ -9,16 +9,19 @@
 namespace heightlight {
 
 std::string missed_error(const Evidence& evidence) {
-  const double most = kMissed * evidence.error_wanted;
-  if (!(most > 0)) return {};
-  double total = 0;
-  for (const HorizonCheck& check : evidence.total_checks) total = std::max(total, check.total_rmse);
+  const double wanted = evidence.error_wanted;
+  if (!(wanted > 0)) return {};
+  double total = 0;  // the largest of those that miss
+  for (const HorizonCheck& check : evidence.total_checks) {
+    if (is_missed(check.total_rmse, wanted, check.total_standard_error))
+      total = std::max(total, check.total_rmse);
+  }
   std::string found;
-  if (evidence.sky_rmse && *evidence.sky_rmse > most)
+  if (evidence.sky_rmse && is_missed(*evidence.sky_rmse, wanted))
     found = in_digits(*evidence.sky_rmse, 2) + " of the sky view factor";
-  if (total > most) found += (found.empty() ? "" : ", ") + in_digits(total, 2) + " of the total";
+  if (total > 0) found += (found.empty() ? "" : ", ") + in_digits(total, 2) + " of the total";
   for (const DefinitionCheck& check : evidence.definition_checks) {
-    if (check.rmse.value_or(0) > most && !is_of_sky(check.definition))
+    if (is_missed(check.rmse.value_or(0), wanted) && !is_of_sky(check.definition))
       found +=
           (found.empty() ? "" : ", ") + in_digits(*check.rmse, 2) + " of " + facts_of(check.definition).name;
   }

@@ -24,10 +24,11 @@ std::int64_t block_count(int width, int height) {
 
 }  // namespace
 
-std::uint64_t gather_calibration_bytes(int width, int height) {
+std::uint64_t gather_calibration_bytes(int width, int height, std::uint64_t fields) {
   constexpr int kAzimuths = GatherCalibration::kExactAzimuths;
   const auto receivers = static_cast<std::uint64_t>(block_count(width, height)) * kExactPerBlock;
-  return receivers * (slice_view_bytes(width, height, kAzimuths) + sizeof(GatherCalibration::SeenField));
+  return receivers *
+         (slice_view_bytes(width, height, kAzimuths) + fields * sizeof(GatherCalibration::SeenField));
 }
 
 GatherCalibration::GatherCalibration(const Surface& surface, const CalibrationOptions& options)

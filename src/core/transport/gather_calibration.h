@@ -11,8 +11,8 @@
 
 namespace heightlight {
 
-/// Bytes that a calibration of such a map holds.
-std::uint64_t gather_calibration_bytes(int width, int height);
+/// Bytes that a calibration of such a map holds, and what it sees of so many fields.
+std::uint64_t gather_calibration_bytes(int width, int height, std::uint64_t fields);
 
 /// Receivers on which gathers are tried before the whole map gathers: blocks, and in them some whose views
 /// are known exactly. What sampling costs has a long tail along walls: they lie in many places, of few

@@ -24,8 +24,14 @@ struct FoundMaps {
   std::vector<FoundTotal> totals = {};
 };
 
-/// A total that errs by more than this times the error wanted misses it.
+/// An error that is more than so many times the one wanted is missed.
 constexpr double kMissed = 1.15;
+
+/// Whether an RMSE that a check found misses the error wanted; one that is above it, too, where the check's
+/// own standard error leaves that open.
+constexpr bool is_missed(double rmse, double error_wanted, double standard_error = 0) {
+  return rmse > error_wanted && rmse + standard_error > kMissed * error_wanted;
+}
 
 /// Azimuths that leave little beside the error wanted: on bricks 128 leave .0001 of A and .0003 of a gather,
 /// 64 twice that and more.

@@ -33,6 +33,12 @@ double sky_by_even_azimuths(const ExactWalker& walker, const Vector3& normal, co
 
 }  // namespace
 
+std::uint64_t sky_calibration_bytes(int width, int height) {
+  constexpr std::uint64_t kWalks = 3;  // by many azimuths, by those tried, and by every other of these
+  const auto strips = static_cast<std::uint64_t>(calibration_strips(width, height));
+  return strips * WalkTile::kTexels * kWalks * sizeof(float);
+}
+
 SkyCalibration::SkyCalibration(const Surface& surface, const HeightMips& mips,
                                const CalibrationOptions& options)
     : surface_(surface),

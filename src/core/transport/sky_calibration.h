@@ -18,6 +18,9 @@ struct SamplingError {
   double at(int azimuths) const { return std::hypot(shared, own / std::sqrt(azimuths)); }
 };
 
+/// Bytes that a calibration of such a map holds.
+std::uint64_t sky_calibration_bytes(int width, int height);
+
 /// Receivers on which walks of the sky are tried before the whole map is walked: strips of tiles, and among
 /// them some that are walked exactly too.
 class SkyCalibration {

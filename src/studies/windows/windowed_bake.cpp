@@ -143,10 +143,11 @@ void end_check(Work& work) {
   std::vector<std::size_t> missed;
   double share = 1;
   for (std::size_t c = 0; c < checks.size(); ++c) {
-    const double reached = checks[c].total_rmse / work.task.options.error;
-    if (checks[c].receivers == 0 || !(reached > kMissed)) continue;
+    const double wanted = work.task.options.error;
+    const HorizonCheck& check = checks[c];
+    if (check.receivers == 0 || !is_missed(check.total_rmse, wanted, check.total_standard_error)) continue;
     missed.push_back(c);
-    share = std::min(share, reached > kMissedByMuch ? kMuchFiner : kFiner);
+    share = std::min(share, check.total_rmse > kMissedByMuch * wanted ? kMuchFiner : kFiner);
   }
   if (missed.empty()) return;
   move_folder(field_folder(work, work.state.gather).path, work_folder(work, "totals").path);
