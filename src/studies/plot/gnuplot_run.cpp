@@ -90,9 +90,9 @@ class GnuplotProcess {
     MemoryFile fault;  // why it could not be started, if it could not
     const pid_t parent = getpid();
     // Not fork(): what libraries do around it in a process of many threads may wait for ever, and where no
-    // memory is promised twice, it wants as much again as this process has. The child makes system calls
-    // alone.
-    child_ = vfork();
+    // memory is promised twice, it wants as much again as this process has. posix_spawn() knows neither of
+    // limits nor of parents that end. The child makes system calls alone.
+    child_ = vfork();  // NOLINT(clang-analyzer-security.insecureAPI.vfork)
     if (child_ < 0) throw gnuplot_error("which cannot be started: " + system_message(errno));
     if (child_ == 0) {
       prctl(PR_SET_PDEATHSIG, SIGKILL);

@@ -66,8 +66,10 @@ Image<Rgb8> lit_sphere(const SphereSkin& skin, int side, const Rgb8& ground) {
       std::array<double, 3> sum{};
       int inside = 0;
       for (int s = 0; s < kSamples * kSamples; ++s) {
-        const double x = 2 * ((column + (s % kSamples + 0.5) / kSamples) / side - 0.5);
-        const double y = -2 * ((row + (s / kSamples + 0.5) / kSamples) / side - 0.5);
+        const int across = s % kSamples;
+        const int down = s / kSamples;
+        const double x = 2 * ((column + (across + 0.5) / kSamples) / side - 0.5);
+        const double y = -2 * ((row + (down + 0.5) / kSamples) / side - 0.5);
         if (x * x + y * y >= 1) continue;
         const std::array<double, 3> colour = shade(skin, x, y);
         for (std::size_t c = 0; c < 3; ++c) sum[c] += colour[c];

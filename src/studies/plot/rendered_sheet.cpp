@@ -42,9 +42,9 @@ void plot_rendered(const std::filesystem::path& png, const std::vector<RenderedF
       const Map& first = rendered[i].reflected[0];
       if (first.size() == 0) continue;
       send_pixels(script, i, rendered[i].reflected);
+      const std::size_t row = i / sheet.columns;
       const double left = static_cast<double>(width) * static_cast<double>(i % sheet.columns);
-      const double top =
-          total_height - 40 - static_cast<double>(height) * static_cast<double>(i / sheet.columns);
+      const double top = total_height - 40 - static_cast<double>(height) * static_cast<double>(row);
       const std::string error = rendered[i].rmse > 0
                                     ? fmt::format("RMSE of {} {:.4f}", sheet.quantity, rendered[i].rmse)
                                     : std::string();
