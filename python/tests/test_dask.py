@@ -88,8 +88,8 @@ def test_a_file_gives_what_memory_and_one_process_give(client, shape, window, co
 
 
 def test_a_total_that_misses_its_error_is_found_once_more(client):
-    source = saved("brick.npy", hl.synth("brick", 512).height)
-    found = hl.dask.bake(source, client, maps=["ao", "multibounce"], window=256, albedo=0.8, error=0.004)
+    source = saved("steps.npy", hl.synth("steps", 256, relief=1).height)
+    found = hl.dask.bake(source, client, maps=["ao", "multibounce"], window=128, albedo=0.8, error=0.004)
     expected = hl.bake(hl.read(source), ["ao", "multibounce"], albedo=0.8, error=0.004)
     assert expected.evidence["visibility"]["refined"]
     assert json.loads(found.attrs["evidence"])["visibility"]["refined"]
