@@ -58,13 +58,13 @@ void measure(const Options& options, const std::filesystem::path& folder, const 
   const nlohmann::json& errors = sidecar["errors"];
   const nlohmann::json& visibility = sidecar["visibility"];
   const SkyPlan plan{.walk = {.azimuths = visibility["azimuths"],
-                              .fineness = visibility["fineness"],
+                              .samples_per_octave = visibility["fineness"],
                               .peak_share = visibility["peak_share"]},
                      .full_from = visibility["full_from"]};
   const Surface surface = build_surface(load_heightmap(path, {}, options.memory).map);
-  const HeightMips mips = build_height_mips(surface);
+  const HeightPyramid pyramid = build_height_pyramid(surface);
   const Stopwatch walk_watch;
-  walk_horizon_sky(surface, mips, plan);
+  walk_horizon_sky(surface, pyramid, plan);
   const Cost walk = walk_watch.elapsed();
   const double megatexels = 1e-6 * size * size;
   const auto per = [megatexels](double seconds) { return seconds / megatexels; };

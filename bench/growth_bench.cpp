@@ -33,13 +33,13 @@ namespace heightlight {
 namespace {
 
 constexpr double kAlbedo = 0.8;
-constexpr WalkOptions kFixedWalk{.azimuths = 32, .fineness = 16, .peak_share = 0.3F};
+constexpr WalkOptions kFixedWalk{.azimuths = 32, .samples_per_octave = 16, .peak_share = 0.3F};
 
 /// What became of one map. Plain, so that it can go through a pipe.
 struct Growth {
   Cost fixed_walk;
   Cost calibration;  ///< its exact walks
-  Cost sky;          ///< with its mips, and the choice of how it is walked
+  Cost sky;          ///< with its pyramid, and the choice of how it is walked
   Cost plan;         ///< of the gathers, and the heights that they look at
   Cost totals;       ///< all gathers
   int sky_azimuths = 0;
@@ -83,17 +83,17 @@ Planned plan(const Surface& surface, const Options& options, Growth& growth) {
   GatherCalibration calibration(surface, {.seed = goal.seed});
   growth.calibration = calibration_watch.elapsed();
   const Stopwatch sky_watch;
-  const HeightMips mips = build_height_mips(surface);
-  PlannedSky sky = find_sky_for_totals(mips, goal, {}, calibration, {});
+  const HeightPyramid pyramid = build_height_pyramid(surface);
+  PlannedSky sky = find_sky_for_totals(pyramid, goal, {}, calibration, {});
   growth.sky = sky_watch.elapsed();
   const Stopwatch plan_watch;
-  Planned planned{.sky = {}, .gather = plan_gather(calibration, mips, goal.error, sky)};
+  Planned planned{.sky = {}, .gather = plan_gather(calibration, pyramid, goal.error, sky)};
   growth.plan = plan_watch.elapsed();
   planned.sky = std::move(sky.sky.sky_view_factor);
   growth.sky_azimuths = sky.plan.walk.azimuths;
-  growth.sky_fineness = sky.plan.walk.fineness;
+  growth.sky_fineness = sky.plan.walk.samples_per_octave;
   growth.gather_azimuths = planned.gather.plan.walk.azimuths;
-  growth.gather_fineness = planned.gather.plan.walk.fineness;
+  growth.gather_fineness = planned.gather.plan.walk.samples_per_octave;
   return planned;
 }
 
@@ -101,8 +101,8 @@ Growth measure(const Options& options, const std::string& map, int size) {
   const Surface surface = build_surface(make_bench_map(map, size).value());
   Growth growth;
   {
-    const HeightMips mips = build_height_mips(surface);
-    growth.fixed_walk = least_cost([&] { walk_horizon_sky(surface, mips, {.walk = kFixedWalk}); });
+    const HeightPyramid pyramid = build_height_pyramid(surface);
+    growth.fixed_walk = least_cost([&] { walk_horizon_sky(surface, pyramid, {.walk = kFixedWalk}); });
   }
   const Planned planned = plan(surface, options, growth);
   const ProgressiveGoal goal{.error = options.error, .last_azimuths = growth.gather_azimuths};
@@ -151,9 +151,9 @@ void print_head(const Options& options) {
       "B/texel: peak of memory; sky, walks: azimuths and fineness of the sky and of the last two gathers\n"
       "RMSE: by exact walks\n"
       "%-6s %6s %6s %7s %7s %7s %7s %8s %8s %6s %8s %8s %-8s %-8s %7s %8s %8s\n",
-      kFixedWalk.azimuths, kFixedWalk.fineness, kAlbedo, options.error, "map", "size", "fixed", "calibrate",
-      "sky", "plan", "totals", "core-s", "wall-s", "others", "peak MB", "B/texel", "sky", "walks", "gathers",
-      "RMSE A", "total");
+      kFixedWalk.azimuths, kFixedWalk.samples_per_octave, kAlbedo, options.error, "map", "size", "fixed",
+      "calibrate", "sky", "plan", "totals", "core-s", "wall-s", "others", "peak MB", "B/texel", "sky",
+      "walks", "gathers", "RMSE A", "total");
 }
 
 void print_row(const std::string& map, int size, const Growth& g) {

@@ -13,18 +13,21 @@ namespace {
 constexpr std::uint64_t kSeed = 1;  // of the calibration sample, which is not the reference's
 
 Map walk_sky(const Surface& surface, const SkyPlan& plan) {
-  return walk_horizon_sky(surface, build_height_mips(surface), plan).sky_view_factor;
+  return walk_horizon_sky(surface, build_height_pyramid(surface), plan).sky_view_factor;
 }
 
-/// A walk whose azimuths and fineness are given; every other azimuth where 1 − A is less than `full_from`.
-Method walk_method(const Surface& surface, int fineness, double full_from) {
+/// A walk whose azimuths and samples per octave are given; every other azimuth where 1 − A is less than
+/// `full_from`.
+Method walk_method(const Surface& surface, int samples_per_octave, double full_from) {
   Method method;
-  method.name = "horizon walk, fineness " + std::to_string(fineness) + (full_from > 0 ? ", sparse" : "");
+  method.name =
+      "horizon walk, fineness " + std::to_string(samples_per_octave) + (full_from > 0 ? ", sparse" : "");
   method.parameter = "azimuths";
   method.settings = {4, 8, 12, 16, 24, 32, 48, 64, 96, 128};
   method.granularity = 4;
-  method.run_map = [&surface, fineness, full_from](int azimuths) {
-    return walk_sky(surface, {.walk = {.azimuths = azimuths, .fineness = fineness}, .full_from = full_from});
+  method.run_map = [&surface, samples_per_octave, full_from](int azimuths) {
+    return walk_sky(surface, {.walk = {.azimuths = azimuths, .samples_per_octave = samples_per_octave},
+                              .full_from = full_from});
   };
   return method;
 }
@@ -45,8 +48,8 @@ Method planned_sky_method(const Surface& surface) {
     HorizonGoal goal;
     goal.error = 1.0 / inverse;
     const Watch unwatched;
-    const HeightMips mips = build_height_mips(surface);
-    SkyCalibration calibration(surface, mips, {.seed = kSeed, .watch = unwatched});
+    const HeightPyramid pyramid = build_height_pyramid(surface);
+    SkyCalibration calibration(surface, pyramid, {.seed = kSeed, .watch = unwatched});
     return walk_sky(surface, plan_sky(calibration, goal));
   };
   return method;
@@ -57,8 +60,10 @@ Method planned_sky_method(const Surface& surface) {
 std::vector<Method> horizon_sky_methods(const Surface& surface) {
   std::vector<Method> methods;
   constexpr double kFullFrom = 0.3;  // beside walls, on brick a third of the map
-  for (const int fineness : {8, 12, 16, 20, 24, 32}) methods.push_back(walk_method(surface, fineness, 0));
-  for (const int fineness : {12, 16, 20, 24}) methods.push_back(walk_method(surface, fineness, kFullFrom));
+  for (const int samples_per_octave : {8, 12, 16, 20, 24, 32})
+    methods.push_back(walk_method(surface, samples_per_octave, 0));
+  for (const int samples_per_octave : {12, 16, 20, 24})
+    methods.push_back(walk_method(surface, samples_per_octave, kFullFrom));
   methods.push_back(planned_sky_method(surface));
   return methods;
 }

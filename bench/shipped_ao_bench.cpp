@@ -1,6 +1,6 @@
 // Rank correlation (Spearman's) of baked ambient occlusion with the AO maps that came with real materials.
-// Their makers tell neither the relief nor the reach nor the gamma: the relief is searched for, without a
-// reach and with some, and only the order of values is compared. Where the two differ
+// Their makers tell neither the relief nor the radius nor the gamma: the relief is searched for, without a
+// radius and with some, and only the order of values is compared. Where the two differ
 // is told by octaves: means over ever larger squares, ours after its values have been given theirs by rank.
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -79,27 +79,27 @@ struct Search {
   std::vector<double> shipped;
   double error;
 
-  Map bake(double relief, const std::optional<Reach>& reach) const {
+  Map bake(double relief, const std::optional<MaximumDistance>& radius) const {
     Heightmap map = unit;
     for (float& height : map.height.values) height *= static_cast<float>(relief);
     const Surface surface = build_surface(std::move(map));
     BakeOptions options;
     options.maps = {MaterialMap::ao};
     options.error = error;
-    options.reach = reach;
+    options.radius = radius;
     return find_material(surface, options).results.sky_view_factor;
   }
-  double score(double relief, const std::optional<Reach>& reach) const {
-    return correlation(ranks_of(bake(relief, reach).values), shipped);
+  double score(double relief, const std::optional<MaximumDistance>& radius) const {
+    return correlation(ranks_of(bake(relief, radius).values), shipped);
   }
 };
 
 /// The best relief: a coarse ladder, then halved steps around its best rung.
-double best_relief(const Search& search, const std::optional<Reach>& reach, double& score) {
+double best_relief(const Search& search, const std::optional<MaximumDistance>& radius, double& score) {
   double best = 0.01;
   score = -1;
   const auto attempt = [&](double relief) {
-    const double found = search.score(relief, reach);
+    const double found = search.score(relief, radius);
     if (found <= score) return;
     score = found;
     best = relief;
@@ -196,15 +196,16 @@ void judge(const std::filesystem::path& folder, const ShippedMaterial& material,
   std::transform(shipped.begin(), shipped.end(), theirs.values.begin(), [=](float v) { return v / largest; });
   const Search search{unit, ranks_of(shipped), options.error};
   for (const double share : {0.0, 0.1, 0.02}) {
-    const std::optional<Reach> reach =
-        share > 0 ? std::optional<Reach>{{.distance = share, .falloff = Falloff::linear}} : std::nullopt;
+    const std::optional<MaximumDistance> radius =
+        share > 0 ? std::optional<MaximumDistance>{{.distance = share, .falloff = Falloff::linear}}
+                  : std::nullopt;
     double score = 0;
-    const double relief = best_relief(search, reach, score);
+    const double relief = best_relief(search, radius, score);
     std::printf("%-17s %-10s %8.4f %8.3f\n", material.name,
                 share > 0 ? (share == 0.1 ? "10 %" : "2 %") : "unlimited", relief, score);
     std::fflush(stdout);
     if (options.pictures.empty() && !(octaves && share == 0)) continue;
-    const Map ours = search.bake(relief, reach);
+    const Map ours = search.bake(relief, radius);
     if (octaves && share == 0) compare_octaves(material.name, ours, theirs, octaves);
     if (options.pictures.empty()) continue;
     const std::filesystem::path stem = std::filesystem::path(options.pictures) / material.name;

@@ -67,7 +67,7 @@ inline constexpr const char* kShareShader = R"(float heightlight_share(float x) 
 }
 )";
 
-// The direct light, taken for the whole of it
+// The direct irradiance, taken for the whole of it
 // ----------------------------------------------------------------------
 
 inline constexpr FormText kDirectText{"direct", "A", "AO x pi", ""};

@@ -57,7 +57,7 @@ DepthBuffer make_depth_buffer(const Surface& surface);
 
 /// Beyond this distance nothing can raise a horizon by what matters: where the whole relief spans a slope of
 /// 0.004, four times the map's size at most; for open maps their diagonal.
-double farthest_reach(const DepthBuffer& depth);
+double largest_radius(const DepthBuffer& depth);
 
 /// What a screen-space method says of every texel; NaN where the sample is missing.
 struct ScreenSpaceView {
@@ -69,7 +69,7 @@ struct ScreenSpaceView {
   double samples_per_texel = 0;  ///< depths that were looked up
 };
 
-/// Where along a direction the samples lie, s in (0, 1] of the reach, k = 0 … N − 1.
+/// Where along a direction the samples lie, s in (0, 1] of the radius, k = 0 … N − 1.
 enum class StepDistribution {
   uniform,    ///< (k + 1)/N
   quadratic,  ///< ((k + 1)/N)²
@@ -96,8 +96,8 @@ struct GtaoOptions {
   StepDistribution distribution = StepDistribution::quadratic;
   DepthSampling sampling = DepthSampling::nearest;
   DirectionNoise noise = DirectionNoise::spatial;
-  double reach = std::numeric_limits<double>::infinity();  ///< > 0, horizontally; farthest_reach at most
-  double falloff = 0;           ///< in [0, 1]: the outer share of the reach where horizons sink towards −1
+  double radius = std::numeric_limits<double>::infinity();  ///< > 0, horizontally; largest_radius at most
+  double falloff = 0;           ///< in [0, 1]: the outer share of the radius where horizons sink towards −1
   double thickness = 0;         ///< β of eq. 13, ≥ 0; 0 leaves the heuristic out
   bool divide_by_open = false;  ///< divide by what the same slices give an open hemisphere; not in the paper
   bool bent_normal = false;     ///< algorithm 2
@@ -123,16 +123,16 @@ ScreenSpaceView gtao_with_bounce(const DepthBuffer& depth, const GtaoOptions& op
 /// HBAO (Bavoil, Sainz and Dimitrov 2008, as Jimenez et al. 2016 describes it): horizons above the tangent
 /// plane's angle t,
 ///     1 − mean over azimuths of (sin h − sin t),
-/// where every sample that raises the horizon weighs by 1 − (r/R)², r its distance and R the reach. It leaves
-/// out the cosine to the normal: without that weight it converges to α, not to A.
+/// where every sample that raises the horizon weighs by 1 − (r/R)², r its distance and R the radius. It
+/// leaves out the cosine to the normal: without that weight it converges to α, not to A.
 struct HbaoOptions {
   int slices = 2;  ///< two azimuths each
   int steps = 4;   ///< per azimuth
   StepDistribution distribution = StepDistribution::uniform;
   DepthSampling sampling = DepthSampling::nearest;
   DirectionNoise noise = DirectionNoise::spatial;
-  double reach = std::numeric_limits<double>::infinity();  ///< > 0; farthest_reach at most
-  bool attenuated = true;                                  ///< false: every sample weighs 1
+  double radius = std::numeric_limits<double>::infinity();  ///< > 0; largest_radius at most
+  bool attenuated = true;                                   ///< false: every sample weighs 1
 };
 
 /// The same map as α and as A, since renderers take it for either. Throws UsageError for options outside
@@ -160,7 +160,7 @@ struct AmbientTransferOptions {
   int tests = 1;     ///< m, containment tests on the way to each sample
   FuzzyMeasure measure = FuzzyMeasure::root;
   DirectionNoise noise = DirectionNoise::spatial;
-  double reach = 1;  ///< R > 0, finite
+  double radius = 1;  ///< R > 0, finite
 };
 
 /// The obscurance O as the method's word for A, and per albedo the transfer W, with the albedo read where a
@@ -174,9 +174,9 @@ ScreenSpaceView ambient_transfer(const DepthBuffer& depth, const std::vector<Sur
 struct SsdoOptions {
   int samples = 16;  ///< N
   DirectionNoise noise = DirectionNoise::spatial;
-  double reach = 1;  ///< r_max > 0, finite
+  double radius = 1;  ///< r_max > 0, finite
   /// Section 6: "a smooth-step function to fade out shadows from blockers close to the border of the
-  /// hemisphere", here over the outer half of the reach.
+  /// hemisphere", here over the outer half of the radius.
   bool smooth_end = false;
 };
 
@@ -212,7 +212,7 @@ struct ScreenSpaceMethod {
   std::function<Image<Vector3>(const DepthBuffer&, const SkyGrid&)> run_under_sky = {};  ///< then empty
 };
 
-/// All that are compared. Reaches are in units of the map's relief.
+/// All that are compared. Radii are in units of the map's relief.
 const std::vector<ScreenSpaceMethod>& screen_space_methods();
 
 }  // namespace heightlight

@@ -32,7 +32,7 @@ SkyLight two_tone_sky();
 /// brightens threefold, L = 9/7 (1 + 2 sinθ)/3 (Moon and Spencer 1942); below the horizontal it is dark.
 SkyLight overcast_sky();
 
-/// How a sky's direct light is found.
+/// How a sky's direct irradiance is found.
 struct SkyAccuracy {
   double error = 0.002;    ///< RMSE wanted of E₀/π in the channel that errs most
   int azimuths = 0;        ///< > 0: fixed, even; else doubled from 64 until the check finds the error, or 512

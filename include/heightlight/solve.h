@@ -45,8 +45,9 @@ struct Wanted {
   SkyWanted moments = {};  ///< of the sky: bent normals, cones and harmonics follow from them
   std::vector<SkyDefinition> definitions = {};  ///< what terrain science calls by these names
   std::vector<double> horizon_rad =
-      {};                           ///< azimuths toward which horizons are found, counterclockwise from x
-  std::optional<Reach> reach = {};  ///< as far as occluders count for all of the above; never for bounces
+      {};  ///< azimuths toward which horizons are found, counterclockwise from x
+  std::optional<MaximumDistance> maximum_distance =
+      {};                           ///< as far as occluders count for all of the above; never for bounces
   std::vector<Albedo> totals = {};  ///< albedos at which the total of all bounces is found
   bool seen = false;                ///< n of every texel (forms.h), solved for at kSeenAlbedo
   int bounces = 0;  ///< K > 0: E₀ … E_K apart, for `sink`, or in Results where there is none
@@ -89,16 +90,17 @@ struct Request {
   Limits limits = {};
   Watch watch = {};
   BounceSink* sink = nullptr;
-  /// An operator that find_operator found for this surface, this accuracy and this direct light: bounces and
-  /// totals go by it, and are the same, to the last bit, as where each request finds its own. Its sky is the
-  /// one of `wanted.sky`.
+  /// An operator that find_operator found for this surface, this accuracy and this direct irradiance: bounces
+  /// and totals go by it, and are the same, to the last bit, as where each request finds its own. Its sky is
+  /// the one of `wanted.sky`.
   const PlannedTransport* transport = nullptr;
 };
 
 /// What was asked for; the rest is empty. All maps have the surface's size.
 struct Results {
-  Map ambient_occlusion;  ///< α as far as the reach, [0, 1]; NaN where the sample is missing, here and below
-  Map sky_view_factor;    ///< A, likewise
+  Map ambient_occlusion;  ///< α as far as the maximum distance, [0, 1]; NaN where the sample is missing, here
+                          ///< and below
+  Map sky_view_factor;  ///< A, likewise
   SkyMoments moments;
   std::vector<Map> definitions;  ///< per definition asked for
   std::vector<Map> horizons;     ///< elevations above what is level at the place, rad, at least those of the
@@ -108,7 +110,7 @@ struct Results {
   std::vector<std::vector<TexelVector>> totals;
   std::vector<TexelVector> bounces;  ///< E_b/π at ρ = 1, b = 0 … K
   TexelVector tail;                  ///< and of all later ones together
-  Map whole_sky_view_factor;         ///< A without a reach, which `seen` goes with
+  Map whole_sky_view_factor;         ///< A without a maximum distance, which `seen` goes with
   Map seen;                          ///< n
   Evidence evidence;
 };

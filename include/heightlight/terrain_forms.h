@@ -9,8 +9,8 @@
 #include "heightlight/surface.h"
 
 // What energy-balance models and atmospheric corrections make of light that terrain reflects: irradiance of a
-// texel from its direct light, its sky view factor, and means over a window around it. All irradiances are
-// E/π, in one unit of the caller's.
+// texel from its direct irradiance, its sky view factor, and means over a window around it. All irradiances
+// are E/π, in one unit of the caller's.
 
 namespace heightlight {
 

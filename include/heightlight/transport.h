@@ -22,7 +22,7 @@ struct Albedo {
 };
 
 /// A system E = direct + F ρ E, of one channel.
-struct LightSystem {
+struct IrradianceSystem {
   const TexelVector* direct = nullptr;   ///< E₀/π of light of one's own; null: the sky's
   double albedo = 0;                     ///< where it is the same everywhere
   const TexelVector* varying = nullptr;  ///< ρ per texel, where it is not
@@ -40,7 +40,7 @@ struct Totals {
 class BounceSequence {
  public:
   virtual ~BounceSequence() = default;
-  /// E_b/π = F E_{b−1}, where `last` is E_{b−1}: at the first call the direct light, then what the call
+  /// E_b/π = F E_{b−1}, where `last` is E_{b−1}: at the first call the direct irradiance, then what the call
   /// before gave, or as much of it as energy allows. `sum` is E₀ + … + E_{b−1}, no more than 1.
   virtual TexelVector next(const TexelVector& last, const TexelVector& sum) = 0;
 };
@@ -68,7 +68,7 @@ struct Transport {
   virtual std::unique_ptr<BounceSequence> start_bounces() const;
   /// E/π of all bounces of each system, which is the same, to the last bit, whatever others are beside it. 0
   /// where missing.
-  virtual Totals solve(const std::vector<LightSystem>& systems, const Watch& watch) const = 0;
+  virtual Totals solve(const std::vector<IrradianceSystem>& systems, const Watch& watch) const = 0;
   /// Form factors that are stored, and the bytes that they take.
   virtual std::uint64_t link_count() const = 0;
   virtual std::uint64_t bytes() const = 0;
@@ -115,7 +115,7 @@ struct FormFactors : Transport {
   TexelVector gather(const TexelVector& x) const override;
   TexelVector surface_share() const override;
   /// By solve_equilibrium.
-  Totals solve(const std::vector<LightSystem>& systems, const Watch& watch) const override;
+  Totals solve(const std::vector<IrradianceSystem>& systems, const Watch& watch) const override;
   std::uint64_t link_count() const override;
   std::uint64_t bytes() const override;
 };
@@ -136,10 +136,10 @@ struct AmbientTransfer {
   std::vector<Map> transfer;  ///< W = O/(1 − Σ F (1 − μ) ρ) per channel of the albedo, [0, 1]
 };
 
-/// From links, with μ of a reach. On a tiling map distances are those to the nearest copy of what is seen:
-/// the reach must not pass half the map.
+/// From links, with μ of a maximum distance. On a tiling map distances are those to the nearest copy of what
+/// is seen: the maximum distance must not pass half the map.
 AmbientTransfer find_ambient_transfer(const Surface& surface, const FormFactors& form_factors,
-                                      const Reach& reach, const Albedo& albedo);
+                                      const MaximumDistance& maximum_distance, const Albedo& albedo);
 
 /// What finding links may use, and who watches it.
 struct LinkLimits {
@@ -175,12 +175,12 @@ struct HorizonPlan {
 
 /// Throws UsageError for a plan that cannot be walked: azimuths must be even, from 2 to 65536 of the sky and
 /// to 4096 of gathers; a multiple of 4 of the sky where open ground walks every other one (full_from > 0); a
-/// fineness from 1 to 128, a share of the peaks from 0 to 1.
+/// samples per octave from 1 to 128, a share of the peaks from 0 to 1.
 void check_horizon_plan(const HorizonPlan& plan);
 
 /// The operator by horizon walks as planned: nothing is stored, each gather walks. `surface` must outlive it.
-/// `error` > 0 is the RMSE that solve() aims at, in units of the brightest direct light. Throws UsageError as
-/// check_horizon_plan does.
+/// `error` > 0 is the RMSE that solve() aims at, in units of the brightest direct irradiance. Throws
+/// UsageError as check_horizon_plan does.
 std::unique_ptr<Transport> build_horizon_transport(const Surface& surface, const HorizonPlan& plan,
                                                    double error = 0.002, const Watch& watch = {});
 

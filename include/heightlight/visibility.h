@@ -22,7 +22,8 @@ void check_ray_options(const RayOptions& options);
 /// How a horizon walk looks around; each is a bargain between time and error.
 struct WalkOptions {
   int azimuths = 32;  ///< K, even, 2 … 65536; φ_k = 2π (k + ¼) / K in the world, from x to y
-  int fineness = 16;  ///< ν, 8, 16, 32 …: samples per octave of distance; all breakpoints up to ν/2 texels
+  int samples_per_octave =
+      16;  ///< ν, 8, 16, 32 …: samples per octave of distance; all breakpoints up to ν/2 texels
   float peak_share =
       0.3F;  ///< of a block's highest sample in the height that stands for it; the rest is its mean
 };
@@ -112,8 +113,8 @@ struct SkyMoments {
 Vector3 bent_normal(const Vector3& first_moment, const Vector3& normal);
 
 /// How what is near a receiver counts for more than what is far: a direction in which the surface stands at
-/// distance d counts as open by the share μ(d) (Umenhoffer et al. 2009, section 2), which is 1 from the reach
-/// D on.
+/// distance d counts as open by the share μ(d) (Umenhoffer et al. 2009, section 2), which is 1 from the
+/// maximum distance D on.
 enum class Falloff {
   none,        ///< 0: all that stands nearer than D occludes wholly
   linear,      ///< d/D
@@ -128,7 +129,7 @@ const std::vector<std::string>& falloff_names();
 Falloff falloff_named(const std::string& name);
 
 /// As far as occluders count.
-struct Reach {
+struct MaximumDistance {
   double distance = 0;  ///< D > 0, world units, in space (not on the map)
   Falloff falloff = Falloff::none;
 };

@@ -10,7 +10,7 @@ import numpy as np
 
 from . import _native
 from ._heights import HeightLike, numbers, surface_of
-from ._settings import integer, one_of, reach_of, settings
+from ._settings import integer, one_of, max_distance_of, settings
 
 
 class Bake(dict):
@@ -50,7 +50,7 @@ def map_names(maps: Union[str, Iterable[str]]) -> list[str]:
 def bake_choice(
     albedo: Any,
     *,
-    reach: Any = None,
+    max_distance: Any = None,
     falloff: Any = "none",
     uniform_ao: Any = False,
     y_down: Any = False,
@@ -62,10 +62,10 @@ def bake_choice(
     reflectance = numbers("albedo", albedo)
     if reflectance.ndim > 1 or reflectance.size not in (1, 3):
         raise ValueError("albedo: must be one number, or three")
-    distance, fading = reach_of(reach, falloff)
+    distance, fading = max_distance_of(max_distance, falloff)
     choice: dict[str, Any] = {
         "albedo": [float(value) for value in np.atleast_1d(reflectance)],
-        "reach": distance,
+        "max_distance": distance,
         "falloff": fading,
         "uniform_ao": bool(uniform_ao),
         "y_down": bool(y_down),
@@ -86,7 +86,7 @@ def bake(
     albedo: Any = 0.5,
     error: float = 2e-3,
     azimuths: Optional[int] = None,
-    reach: Optional[float] = None,
+    max_distance: Optional[float] = None,
     falloff: str = "none",
     uniform_ao: bool = False,
     y_down: bool = False,
@@ -112,7 +112,7 @@ def bake(
     surface, _ = surface_of(height, texel, boundary)
     choice = bake_choice(
         albedo,
-        reach=reach,
+        max_distance=max_distance,
         falloff=falloff,
         uniform_ao=uniform_ao,
         y_down=y_down,

@@ -92,6 +92,6 @@ def one_of(name: str, value: Any, known: tuple[str, ...]) -> str:
 FALLOFFS = ("none", "linear", "sqrt", "exponential")
 
 
-def reach_of(reach: Any, falloff: Any) -> tuple[Optional[float], str]:
+def max_distance_of(max_distance: Any, falloff: Any) -> tuple[Optional[float], str]:
     """A distance in world units, or None, and how occluders within it fade."""
-    return (None if reach is None else real("reach", reach)), one_of("falloff", falloff, FALLOFFS)
+    return (None if max_distance is None else real("max_distance", max_distance)), one_of("falloff", falloff, FALLOFFS)

@@ -9,16 +9,16 @@ import numpy as np
 
 from . import _native
 from ._heights import HeightLike, surface_of
-from ._settings import integer, one_of, reach_of, real, settings
+from ._settings import integer, one_of, max_distance_of, real, settings
 
 
 class Sky:
     """What `sky()` returns. Each quantity is found when it is first asked for, and kept."""
 
-    def __init__(self, surface: Any, chosen: Any, reach: Optional[float], falloff: str, below: str = "sky") -> None:
+    def __init__(self, surface: Any, chosen: Any, max_distance: Optional[float], falloff: str, below: str = "sky") -> None:
         self._surface = surface
         self._settings = chosen
-        self._task = (reach, falloff, below)
+        self._task = (max_distance, falloff, below)
         self._shares: Optional[dict[str, Any]] = None
         self._moments: Optional[dict[str, Any]] = None
         self._definitions: dict[str, np.ndarray] = {}
@@ -106,7 +106,7 @@ def sky(
     error: float = 1e-3,
     azimuths: Optional[int] = None,
     rays: Optional[int] = None,
-    reach: Optional[float] = None,
+    max_distance: Optional[float] = None,
     falloff: str = "none",
     below_horizontal: str = "sky",
     seed: int = 1,
@@ -123,7 +123,7 @@ def sky(
         error: RMSE wanted of A; 0: exact slices, far slower.
         azimuths: of the walk, an even number; chosen for the error where it is None.
         rays: by so many rays per texel, the reference, in place of horizon walks.
-        reach: occluders count up to this distance, world units; `falloff` ("none", "linear", "sqrt",
+        max_distance: occluders count up to this distance, world units; `falloff` ("none", "linear", "sqrt",
             "exponential") says how they fade toward it.
         below_horizontal: what lies there in directions that miss the surface: "sky", or "ground", which does not
             shine, as terrain tools have it: A of a plane tilted by S is then (1 + cos S)/2.
@@ -143,4 +143,4 @@ def sky(
     surface, _ = surface_of(height, texel, boundary)
     chosen = settings(error, azimuths, rays, seed, threads, memory, progress)
     below = one_of("below_horizontal", below_horizontal, ("sky", "ground"))
-    return Sky(surface, chosen, *reach_of(reach, falloff), below)
+    return Sky(surface, chosen, *max_distance_of(max_distance, falloff), below)

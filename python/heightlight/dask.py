@@ -54,7 +54,7 @@ def bake(
     albedo: Any = 0.5,
     error: float = 2e-3,
     azimuths: Optional[int] = None,
-    reach: Optional[float] = None,
+    max_distance: Optional[float] = None,
     falloff: str = "none",
     uniform_ao: bool = False,
     y_down: bool = False,
@@ -87,7 +87,7 @@ def bake(
     those that Dask gave it.
 
     A total that is found to miss `error` is found once more, as `heightlight.bake` does it. What windows cannot do is a
-    ValueError: "ao-n", the definitions of terrain science, an albedo that varies, "multibounce" beside a reach or under a
+    ValueError: "ao-n", the definitions of terrain science, an albedo that varies, "multibounce" beside a max_distance or under a
     sky that ends at the horizontal, maps that tile whose sides are no multiples of 8 (64, where they are very large).
     """
     array = source if isinstance(source, xr.DataArray) else None
@@ -107,7 +107,7 @@ def bake(
         maps=map_names(maps),
         choice=bake_choice(
             albedo,
-            reach=reach,
+            max_distance=max_distance,
             falloff=falloff,
             uniform_ao=uniform_ao,
             y_down=y_down,

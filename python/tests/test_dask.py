@@ -138,7 +138,7 @@ def test_chunks_are_made_once_each(client, relief, tmp_path):
 
 
 def test_horizons_harmonics_and_a_reach_too(client, relief):
-    options = dict(maps=("ao", "horizon", "sh", "bent-cone", "normal", "height"), reach=150, falloff="linear", horizon_azimuths=6, error=0.02)
+    options = dict(maps=("ao", "horizon", "sh", "bent-cone", "normal", "height"), max_distance=150, falloff="linear", horizon_azimuths=6, error=0.02)
     array = hills(relief)  # no chunks of its own
     found = hl.dask.bake(array, client, window=256, **options)
     assert_same(found, hl.bake(array.heightlight.heightmap(), **options))
@@ -176,7 +176,7 @@ def test_bad_input_is_told(client, relief, tmp_path):
         (ValueError, "window", lambda: bake(source, client, window="wide")),
         (ValueError, "ao-n", lambda: bake(source, client, maps="ao-n")),
         (ValueError, "openness", lambda: bake(source, client, maps="openness-positive")),
-        (ValueError, "reach: multibounce", lambda: bake(source, client, maps="multibounce", reach=3)),
+        (ValueError, "max_distance: multibounce", lambda: bake(source, client, maps="multibounce", max_distance=3)),
         (ValueError, "albedo", lambda: bake(source, client, maps="multibounce", albedo=np.ones((512, 512)))),
         (ValueError, "below_horizontal", lambda: bake(source, client, maps="multibounce", below_horizontal="ground")),
         (ValueError, "no map", lambda: bake(source, client, maps="oa")),

@@ -22,7 +22,7 @@ def test_exceptions_are_pythons_and_name_no_option(brick, brick_operator):
         (ValueError, lambda: hl.sky(brick, rays=70000)),
         (ValueError, lambda: hl.sky(brick, rays=8).bent_normal),
         (ValueError, lambda: hl.sky(brick, falloff="soft")),
-        (ValueError, lambda: hl.sky(brick, reach=-1).sky_view_factor),
+        (ValueError, lambda: hl.sky(brick, max_distance=-1).sky_view_factor),
         (ValueError, lambda: hl.sky(brick, boundary="round")),
         (ValueError, lambda: hl.sky(brick, threads=0)),
         (ValueError, lambda: hl.sky(brick, seed=-1)),

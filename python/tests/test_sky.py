@@ -85,5 +85,5 @@ def test_threads_change_nothing(brick, threads):
 
 
 def test_a_reach_opens_the_sky(brick):
-    near = hl.sky(brick, reach=0.01, falloff="linear").sky_view_factor
+    near = hl.sky(brick, max_distance=0.01, falloff="linear").sky_view_factor
     assert near.mean() > hl.sky(brick).sky_view_factor.mean() + 0.05

@@ -96,22 +96,23 @@ BakeOutcome bake_within(const BakeCommand& command, const BakeInput& input, cons
   options.albedo = std::move(albedo.albedo);
   if (!command.max_distance.empty()) {
     const double width = loaded.map.spacing.x * loaded.map.height.width;
-    options.reach = Reach{.distance = parse_distance("max_distance", command.max_distance, width),
-                          .falloff = falloff_named(command.falloff)};
+    options.maximum_distance =
+        MaximumDistance{.distance = parse_distance("max_distance", command.max_distance, width),
+                        .falloff = falloff_named(command.falloff)};
   }
   if (!command.detail_scale.empty())
     options.detail_scale =
         parse_distance("detail_scale", command.detail_scale, loaded.map.spacing.x * loaded.map.height.width);
   if (options.light_channels > 0) {
     options.find_light = [&](const Surface& surface) {
-      DirectLight light = find_direct_light(command.light, surface,
-                                            {.error = options.error,
-                                             .seed = options.seed,
-                                             .memory = memory_beside(command.run, surface),
-                                             .watch = options.watch});
-      return BakedLight{.channels = std::move(light.channels),
-                        .description = std::move(light.description),
-                        .rmse = light.rmse};
+      DirectIrradiance light = find_direct_irradiance(command.light, surface,
+                                                      {.error = options.error,
+                                                       .seed = options.seed,
+                                                       .memory = memory_beside(command.run, surface),
+                                                       .watch = options.watch});
+      return GivenIrradiance{.channels = std::move(light.channels),
+                             .description = std::move(light.description),
+                             .rmse = light.rmse};
     };
   }
   const std::uint64_t albedo_bytes =

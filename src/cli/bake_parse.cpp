@@ -12,7 +12,7 @@
 #include "files/terrain_file.h"
 #include "heightlight/error.h"
 #include "plot/material_sheet.h"
-#include "visibility/reach_table.h"
+#include "visibility/distance_table.h"
 
 namespace heightlight {
 namespace {
@@ -74,7 +74,7 @@ void parse_bake_options(BakeCommand& command) {
     throw UsageError("falloff", "", "needs --max-distance, where it ends");
   }
   if (!command.max_distance.empty())
-    check_reach({.distance = parse_distance("max_distance", command.max_distance, 1)});
+    check_maximum_distance({.distance = parse_distance("max_distance", command.max_distance, 1)});
   if (!command.detail_scale.empty())
     options.detail_scale = parse_distance("detail_scale", command.detail_scale, 1);
   if (!command.reliefs.empty()) command.relief_table = read_reliefs(command.reliefs);

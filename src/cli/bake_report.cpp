@@ -109,10 +109,10 @@ std::vector<PageFact> bake_asked(const ReportedBake& bake) {
     facts.push_back({.name = "Light", .value = printable(bake.map.material.light.description)});
   facts.push_back({.name = "y of vectors",
                    .value = bake.options.y_down ? "down the picture (DirectX)" : "up the picture (OpenGL)"});
-  if (bake.options.reach)
-    facts.push_back(
-        {.name = "Occluders count up to",
-         .value = fmt::format("{:.4g} world units, but for bounces", bake.options.reach->distance)});
+  if (bake.options.maximum_distance)
+    facts.push_back({.name = "Occluders count up to",
+                     .value = fmt::format("{:.4g} world units, but for bounces",
+                                          bake.options.maximum_distance->distance)});
   return facts;
 }
 

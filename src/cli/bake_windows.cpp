@@ -27,9 +27,9 @@ WindowedTask windowed_task(const BakeCommand& command, const BakeInput& input) {
   task.options.memory -= std::min(task.options.memory, report);
   task.folder = command.folder / ("." + input.name + ".windows");
   if (!command.max_distance.empty()) {
-    task.reach = [&command](double width) {
-      return Reach{.distance = parse_distance("max_distance", command.max_distance, width),
-                   .falloff = falloff_named(command.falloff)};
+    task.maximum_distance = [&command](double width) {
+      return MaximumDistance{.distance = parse_distance("max_distance", command.max_distance, width),
+                             .falloff = falloff_named(command.falloff)};
     };
   }
   return task;

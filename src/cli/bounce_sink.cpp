@@ -14,14 +14,14 @@ namespace {
 
 constexpr int kPreviewedBounces = 6;
 
-Reach obscurance_reach(const SimulateOptions& options, const Surface& surface) {
+MaximumDistance obscurance_maximum_distance(const SimulateOptions& options, const Surface& surface) {
   const double width = surface.map.spacing.x * surface.width();
   const double height = surface.map.spacing.y * surface.height();
-  const Reach reach{.distance = parse_distance("obscurance", options.obscurance, width),
-                    .falloff = falloff_named(options.falloff)};
-  if (surface.tiles() && reach.distance > std::min(width, height) / 2)
+  const MaximumDistance maximum_distance{.distance = parse_distance("obscurance", options.obscurance, width),
+                                         .falloff = falloff_named(options.falloff)};
+  if (surface.tiles() && maximum_distance.distance > std::min(width, height) / 2)
     throw UsageError("obscurance", options.obscurance, "passes half of a map that tiles");
-  return reach;
+  return maximum_distance;
 }
 
 }  // namespace
@@ -29,7 +29,7 @@ Reach obscurance_reach(const SimulateOptions& options, const Surface& surface) {
 SimulationSink::SimulationSink(const Surface& surface, const Albedo& albedo, const SimulateOptions& options,
                                const MapFolder& output)
     : surface_(surface), albedo_(albedo), options_(options), output_(output) {
-  if (!options.obscurance.empty()) reach_ = obscurance_reach(options, surface);
+  if (!options.obscurance.empty()) maximum_distance_ = obscurance_maximum_distance(options, surface);
 }
 
 void SimulationSink::take_sky(const Map& ambient_occlusion, const Map& sky_view_factor) {
@@ -39,7 +39,8 @@ void SimulationSink::take_sky(const Map& ambient_occlusion, const Map& sky_view_
 
 void SimulationSink::take_links(const FormFactors& form_factors) {
   if (options_.save_links) write_form_factors(output_.folder.file("links.npz"), form_factors);
-  if (reach_) write_transfer(output_, find_ambient_transfer(surface_, form_factors, *reach_, albedo_));
+  if (maximum_distance_)
+    write_transfer(output_, find_ambient_transfer(surface_, form_factors, *maximum_distance_, albedo_));
 }
 
 void SimulationSink::take_bounce(int b, const TexelVector& irradiance) {

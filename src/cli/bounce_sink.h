@@ -40,7 +40,7 @@ class SimulationSink : public BounceSink {
   const Albedo& albedo_;
   const SimulateOptions& options_;
   const MapFolder& output_;
-  std::optional<Reach> reach_;  ///< of the obscurance, where that is asked for
+  std::optional<MaximumDistance> maximum_distance_;  ///< of the obscurance, where that is asked for
   std::optional<CurveBuilder> alpha_;
   std::optional<CurveBuilder> sky_;
   std::vector<Image<Rgb8>> first_;

@@ -223,9 +223,10 @@ void add_compare_command(CLI::App& app) {
           ->excludes(specular)
           ->excludes(directional);
   command
-      ->add_option("--sky", options->sky,
-                   "image of radiance, latitude by longitude, whose direct light is compared (one of two "
-                   "tones); its middle looks to the map's top")
+      ->add_option(
+          "--sky", options->sky,
+          "image of radiance, latitude by longitude, whose direct irradiance is compared (one of two "
+          "tones); its middle looks to the map's top")
       ->type_name("FILE.hdr|exr")
       ->excludes(terrain)
       ->excludes(specular);

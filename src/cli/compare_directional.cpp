@@ -69,10 +69,11 @@ void draw_directional(StagedFolder& folder, const DirectionalStudy& study, const
   std::size_t columns = 1;
   while (columns < rendered.size() && rendered[columns].title != "truth") ++columns;
   plots.draw(folder, {"directional.png"}, [&](const auto& paths) {
-    plot_rendered(paths[0], rendered,
-                  {.title = fmt::format("{}, a window: direct light of skies, E/π, of which {:g} is shown",
-                                        map_name, kSkyExposure),
-                   .columns = columns});
+    plot_rendered(
+        paths[0], rendered,
+        {.title = fmt::format("{}, a window: direct irradiance of skies, E/π, of which {:g} is shown",
+                              map_name, kSkyExposure),
+         .columns = columns});
   });
 }
 

@@ -55,7 +55,7 @@ void draw_comparison(StagedFolder& folder, const ReportInput& input, Plots& plot
   });
   plots.draw(folder, {"sky_light.png"}, [&](const auto& paths) {
     plot_rendered(paths[0], comparison.sky_light,
-                  {.title = fmt::format("{}: direct light of {}, {:g} E/π", input.map_name,
+                  {.title = fmt::format("{}: direct irradiance of {}, {:g} E/π", input.map_name,
                                         input.reference.sky.label, kSkyExposure),
                    .columns = (comparison.sky_light.size() + 1) / 2});
   });

@@ -28,12 +28,12 @@ std::vector<TexelVector> read_direct(const std::filesystem::path& path, const Su
                                      std::uint64_t memory) {
   const InputFile file(path);
   const FileFormat format = recognise_format(file);
-  if (!is_picture(format)) throw file.error("is no image of direct light, E/pi");
+  if (!is_picture(format)) throw file.error("is no image of direct irradiance, E/pi");
   const StoredImage image = read_image(file, format, memory);
   if (image.is_integer)
-    throw file.error("holds integers; direct light, E/pi, is told in floats: EXR, or TIFF of floats");
+    throw file.error("holds integers; direct irradiance, E/pi, is told in floats: EXR, or TIFF of floats");
   if (image.width != surface.width() || image.height != surface.height())
-    throw file.error(fmt::format("the direct light is {} × {}, the heightmap {} × {}", image.width,
+    throw file.error(fmt::format("the direct irradiance is {} × {}, the heightmap {} × {}", image.width,
                                  image.height, surface.width(), surface.height()));
   const std::size_t stride = image.channels.size();
   std::vector<TexelVector> channels(stride >= 3 ? 3 : 1, TexelVector(surface.map.height.size()));
@@ -44,7 +44,8 @@ std::vector<TexelVector> read_direct(const std::filesystem::path& path, const Su
           for (std::size_t c = 0; c < channels.size(); ++c) {
             const auto value = static_cast<double>(samples[i * stride + c]);
             if (!(value >= 0 && std::isfinite(value)))
-              throw file.error("has direct light that is negative or no number, where there are heights");
+              throw file.error(
+                  "has direct irradiance that is negative or no number, where there are heights");
             channels[c][i] = value;
           }
         }
@@ -54,7 +55,7 @@ std::vector<TexelVector> read_direct(const std::filesystem::path& path, const Su
   return channels;
 }
 
-DirectLight light_of_sky(const std::string& name, const Surface& surface, const LightLimits& limits) {
+DirectIrradiance light_of_sky(const std::string& name, const Surface& surface, const LightLimits& limits) {
   const bool is_overcast = name == "overcast";
   const SkyLight sky = is_overcast ? overcast_sky() : normalised(load_sky_light(name, limits.memory));
   const std::uint64_t needed = sky_irradiance_bytes(surface, sky);
@@ -141,8 +142,8 @@ std::string light_key(const LightOptions& options) {
   return key;
 }
 
-DirectLight find_direct_light(const LightOptions& options, const Surface& surface,
-                              const LightLimits& limits) {
+DirectIrradiance find_direct_irradiance(const LightOptions& options, const Surface& surface,
+                                        const LightLimits& limits) {
   if (!options.direct.empty()) {
     return {.channels = read_direct(options.direct, surface, limits.memory),
             .description = "E/pi of " + printable(options.direct.filename())};
@@ -154,7 +155,7 @@ DirectLight find_direct_light(const LightOptions& options, const Surface& surfac
                                        90 - sun.azimuth_rad / kDegree, sun.elevation_rad / kDegree)};
   }
   if (!has_own_light(options)) return {};
-  DirectLight light = light_of_sky(options.sky, surface, limits);
+  DirectIrradiance light = light_of_sky(options.sky, surface, limits);
   light.channels.resize(count_light_channels(options), light.channels[0]);  // a grey one in a file of colours
   return light;
 }

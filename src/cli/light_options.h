@@ -51,13 +51,14 @@ struct LightLimits {
 };
 
 /// Direct light of one's own, E₀/π per texel.
-struct DirectLight {
+struct DirectIrradiance {
   std::vector<TexelVector> channels;  ///< as many as were counted; none of an even sky
   std::string description;            ///< "sun at 135, 30 degrees"
   double rmse = 0;                    ///< of a sky's, against exact horizons
 };
 
 /// Finds it. Throws Error naming a file and what is wrong, MemoryError, UsageError as check_light_options.
-DirectLight find_direct_light(const LightOptions& options, const Surface& surface, const LightLimits& limits);
+DirectIrradiance find_direct_irradiance(const LightOptions& options, const Surface& surface,
+                                        const LightLimits& limits);
 
 }  // namespace heightlight

@@ -134,13 +134,14 @@ CurvePlotInput curve_plot(const SimulateOptions& options, const Surface& surface
 }
 
 /// What sends the first light, where that is no even sky; notes it.
-DirectLight find_light(const SimulateOptions& options, const Surface& surface, Simulation& simulation,
-                       const Watch& watch) {
-  DirectLight light = find_direct_light(options.light, surface,
-                                        {.error = options.visibility.error.value_or(LightLimits{}.error),
-                                         .seed = options.run.seed,
-                                         .memory = memory_beside(options.run, surface),
-                                         .watch = watch});
+DirectIrradiance find_light(const SimulateOptions& options, const Surface& surface, Simulation& simulation,
+                            const Watch& watch) {
+  DirectIrradiance light =
+      find_direct_irradiance(options.light, surface,
+                             {.error = options.visibility.error.value_or(LightLimits{}.error),
+                              .seed = options.run.seed,
+                              .memory = memory_beside(options.run, surface),
+                              .watch = watch});
   simulation.light = light.description;
   simulation.light_rmse = light.rmse;
   return light;
@@ -202,7 +203,7 @@ Simulation simulate_within(const SimulateOptions& options, Plots& plots, const W
   seconds.load = lap.lap();
 
   const MapFolder output{.folder = folder, .place = loaded.place};
-  const DirectLight light = find_light(options, surface, simulation, watch);
+  const DirectIrradiance light = find_light(options, surface, simulation, watch);
   seconds.light = lap.lap();
 
   SimulationSink sink(surface, albedo, options, output);

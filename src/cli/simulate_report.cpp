@@ -51,7 +51,8 @@ PictureGroup picture_group(const SimulateOptions& options, const ReportedSimulat
                     fmt::format("E/π after all bounces, at albedo {}.", printable(options.albedo)),
                     "irradiance_total.exr", found.totals));
   if (!found.direct.empty())
-    add(light_picture("direct light", "E₀/π, before any bounce.", "irradiance_direct.exr", found.direct));
+    add(light_picture("direct irradiance", "E₀/π, before any bounce.", "irradiance_direct.exr",
+                      found.direct));
   for (std::size_t b = 0; b < found.bounces.size(); ++b) {
     add({.name = b == 0 ? "bounce 0: the sky" : fmt::format("bounce {}", b),
          .about = fmt::format("E/π that bounce {} brings at albedo 1, under an even sky.", b),

@@ -14,11 +14,11 @@ void add_plan(const HorizonPlan& plan, bool gathers, Json& visibility) {
   visibility["azimuths"] = plan.sky.walk.azimuths;
   visibility["full_from"] = plan.sky.full_from;
   visibility["full_share"] = plan.sky.full_share;
-  visibility["fineness"] = plan.sky.walk.fineness;
+  visibility["fineness"] = plan.sky.walk.samples_per_octave;
   visibility["peak_share"] = plan.sky.walk.peak_share;
   if (gathers) {
     visibility["gathers"] = {{"azimuths", plan.gather.walk.azimuths},
-                             {"fineness", plan.gather.walk.fineness}};
+                             {"fineness", plan.gather.walk.samples_per_octave}};
   }
   visibility["expected_rmse"] = {{"sky_view_factor", plan.sky.error}};
   if (gathers) visibility["expected_rmse"]["total_from_gathers"] = plan.gather.error;

@@ -50,9 +50,10 @@ BakeOptions read_bake_options(const std::vector<std::string>& maps, const py::di
   BakeOptions options;
   for (const std::string& name : maps) options.maps.push_back(map_named(name));
   options.albedo = {.constant = choice["albedo"].cast<std::vector<double>>()};
-  if (!choice["reach"].is_none())
-    options.reach = Reach{.distance = choice["reach"].cast<double>(),
-                          .falloff = falloff_named(choice["falloff"].cast<std::string>())};
+  if (!choice["max_distance"].is_none())
+    options.maximum_distance =
+        MaximumDistance{.distance = choice["max_distance"].cast<double>(),
+                        .falloff = falloff_named(choice["falloff"].cast<std::string>())};
   options.uniform_ao = choice["uniform_ao"].cast<bool>();
   options.y_down = choice["y_down"].cast<bool>();
   options.horizon_azimuths = choice["horizon_azimuths"].cast<int>();

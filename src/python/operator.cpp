@@ -40,7 +40,7 @@ class CurveSink : public BounceSink {
 /// F of one surface, found once.
 class Operator {
  public:
-  /// Planned for direct light of one's own, in channels, or for the sky's where there are none.
+  /// Planned for direct irradiance of one's own, in channels, or for the sky's where there are none.
   Operator(SharedSurface surface, Settings settings, const std::vector<Array<double>>& direct)
       : surface_(std::move(surface)), settings_(std::move(settings)) {
     Request request = make_request(settings_);

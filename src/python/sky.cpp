@@ -35,7 +35,7 @@ struct SkyParts {
 
 /// How far occluders count, how they fade, and what lies below the horizontal: as Python hands it on.
 struct SkyLimits {
-  std::optional<double> reach;
+  std::optional<double> maximum_distance;
   std::string falloff;
   std::string below;
 };
@@ -48,8 +48,9 @@ py::dict find_sky(const Surface& surface, const Settings& settings, const SkyPar
   request.wanted.horizon_rad = parts.horizon_rad;
   for (const std::string& name : parts.definitions)
     request.wanted.definitions.push_back(sky_definition_named(name));
-  if (limits.reach)
-    request.wanted.reach = Reach{.distance = *limits.reach, .falloff = falloff_named(limits.falloff)};
+  if (limits.maximum_distance)
+    request.wanted.maximum_distance =
+        MaximumDistance{.distance = *limits.maximum_distance, .falloff = falloff_named(limits.falloff)};
   request.wanted.below = below_horizontal_named(limits.below);
   PythonWatch watch(settings.progress);
   Results results = watch.run([&](const Watch& told) {
@@ -77,30 +78,30 @@ py::dict find_sky(const Surface& surface, const Settings& settings, const SkyPar
 void add_sky(py::module_& module) {
   module.def(
       "sky",
-      [](const Surface& surface, const Settings& settings, bool moments, std::optional<double> reach,
-         const std::string& falloff, const std::string& below) {
+      [](const Surface& surface, const Settings& settings, bool moments,
+         std::optional<double> maximum_distance, const std::string& falloff, const std::string& below) {
         return find_sky(surface, settings, {.moments = moments},
-                        {.reach = reach, .falloff = falloff, .below = below});
+                        {.maximum_distance = maximum_distance, .falloff = falloff, .below = below});
       },
-      py::arg("surface"), py::arg("settings"), py::arg("moments"), py::arg("reach"), py::arg("falloff"),
-      py::arg("below"));
+      py::arg("surface"), py::arg("settings"), py::arg("moments"), py::arg("max_distance"),
+      py::arg("falloff"), py::arg("below"));
   module.def(
       "horizons",
       [](const Surface& surface, const Settings& settings, const std::vector<double>& azimuths,
-         std::optional<double> reach, const std::string& falloff, const std::string& below) {
+         std::optional<double> maximum_distance, const std::string& falloff, const std::string& below) {
         return find_sky(surface, settings, {.shares = false, .horizon_rad = azimuths},
-                        {.reach = reach, .falloff = falloff, .below = below});
+                        {.maximum_distance = maximum_distance, .falloff = falloff, .below = below});
       },
-      py::arg("surface"), py::arg("settings"), py::arg("azimuths"), py::arg("reach"), py::arg("falloff"),
-      py::arg("below"));
+      py::arg("surface"), py::arg("settings"), py::arg("azimuths"), py::arg("max_distance"),
+      py::arg("falloff"), py::arg("below"));
   module.def(
       "definitions",
       [](const Surface& surface, const Settings& settings, const std::vector<std::string>& names,
-         std::optional<double> reach, const std::string& falloff, const std::string& below) {
+         std::optional<double> maximum_distance, const std::string& falloff, const std::string& below) {
         return find_sky(surface, settings, {.shares = false, .definitions = names},
-                        {.reach = reach, .falloff = falloff, .below = below});
+                        {.maximum_distance = maximum_distance, .falloff = falloff, .below = below});
       },
-      py::arg("surface"), py::arg("settings"), py::arg("names"), py::arg("reach"), py::arg("falloff"),
+      py::arg("surface"), py::arg("settings"), py::arg("names"), py::arg("max_distance"), py::arg("falloff"),
       py::arg("below"));
   module.def("sky_definitions", [] {
     py::dict definitions;

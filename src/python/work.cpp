@@ -21,19 +21,15 @@
 namespace heightlight {
 namespace {
 
-/// What work() returns. Quantities are called as arguments of the package are.
+/// What work() returns. A bake by windows knows their side as out_of_core, the package as window.
 template <class Call>
 auto with_names_of_arguments(Call&& work) {
-  constexpr std::array<std::pair<const char*, const char*>, 2> kNames{
-      {{"max_distance", "reach"}, {"out_of_core", "window"}}};
+  constexpr std::string_view kSide = "out_of_core";
   try {
     return work();
   } catch (const UsageError& error) {
-    for (const auto& [quantity, argument] : kNames) {
-      if (error.quantity == quantity)
-        throw UsageError(argument + std::string(error.what()).substr(error.quantity.size()));
-    }
-    throw;
+    if (error.quantity != kSide) throw;
+    throw UsageError("window" + std::string(error.what()).substr(kSide.size()));
   }
 }
 
@@ -49,8 +45,9 @@ class WorkShare {
     task.load = read_load_options(place["load"]);
     task.folder = place["folder"].cast<std::filesystem::path>();
     task.options = read_bake_options(maps, choice, settings);
-    if (const std::optional<Reach> reach = std::exchange(task.options.reach, std::nullopt))
-      task.reach = [reach](double) { return *reach; };
+    if (const std::optional<MaximumDistance> maximum_distance =
+            std::exchange(task.options.maximum_distance, std::nullopt))
+      task.maximum_distance = [maximum_distance](double) { return *maximum_distance; };
     task.options.request = place["request"].cast<std::string>();
     task.options.surface = place["surface"].cast<std::string>();
     set_format(place["format"].cast<std::string>(), place["depth"].cast<std::string>(), task.options);

@@ -170,7 +170,8 @@ TEST_CASE("tiles stay tiles to the last bit, dithered too", "[bake][slow]") {
   const Heightmap map = make_synth_map("brick", 192, Boundary::tile, 0.1);
   BakeOptions options;
   options.maps = {MaterialMap::ao, MaterialMap::bent_normal, MaterialMap::sh, MaterialMap::horizon};
-  options.reach = GENERATE(std::optional<Reach>{}, std::optional<Reach>{{0.1, Falloff::linear}});
+  options.maximum_distance =
+      GENERATE(std::optional<MaximumDistance>{}, std::optional<MaximumDistance>{{0.1, Falloff::linear}});
   options.depth = TextureDepth::uint8;
   options.dither = true;
   options.azimuths = 16;
@@ -259,7 +260,8 @@ TEST_CASE("files are the same for any number of threads and from run to run", "[
   const ScratchFolder folder;
   BakeOptions options;
   options.maps = all_maps();
-  options.reach = GENERATE(std::optional<Reach>{}, std::optional<Reach>{{0.1, Falloff::linear}});
+  options.maximum_distance =
+      GENERATE(std::optional<MaximumDistance>{}, std::optional<MaximumDistance>{{0.1, Falloff::linear}});
   for (const int threads : {1, 2, 7}) {
     const ThreadScope scope(threads);
     bake_map(make_synth_map("brick", 80, Boundary::tile, 0.1), options, folder / std::to_string(threads));
@@ -279,7 +281,7 @@ TEST_CASE("with a reach, ao opens, and bounces stay as they are", "[bake][slow]"
   options.maps = {MaterialMap::ao, MaterialMap::multibounce};
   options.azimuths = 16;
   bake_map(map, options, folder / "far");
-  options.reach = Reach{0.05, Falloff::linear};
+  options.maximum_distance = MaximumDistance{0.05, Falloff::linear};
   bake_map(map, options, folder / "near");
   const ReadTexture far = read_by_oiio(folder / "far" / "m_ao.png");
   const ReadTexture near = read_by_oiio(folder / "near" / "m_ao.png");
@@ -340,7 +342,7 @@ TEST_CASE("options that contradict each other are refused before any work, and t
   bad[2].depth = TextureDepth::half;
   bad[3].format = TextureFormat::exr;
   bad[4].dither = true;
-  bad[5].reach = Reach{0, Falloff::none};
+  bad[5].maximum_distance = MaximumDistance{0, Falloff::none};
   bad[6].error = 0;
   bad[7].horizon_azimuths = 0;
   bad[8].packed = {{"packed", {{MaterialMap::ao, 1, 0}}}};

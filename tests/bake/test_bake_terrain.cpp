@@ -117,7 +117,7 @@ TEST_CASE("a light of one's own is baked beside its bounces, in its channels", "
   options.albedo = {.constant = {0}};
   options.light_channels = 3;
   options.find_light = [](const Surface& surface) {
-    BakedLight light{.description = "three lamps"};
+    GivenIrradiance light{.description = "three lamps"};
     for (const double brightness : {0.25, 0.5, 2.0})
       light.channels.emplace_back(surface.map.height.size(), brightness);
     return light;

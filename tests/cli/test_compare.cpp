@@ -86,7 +86,7 @@ TEST_CASE("compare writes its table, report, plots and pictures, and errors that
     CHECK(groups[role] == 5);
 }
 
-TEST_CASE("compare judges direct light under a user's sky", "[cli][compare][slow]") {
+TEST_CASE("compare judges direct irradiance under a user's sky", "[cli][compare][slow]") {
   const ScratchFolder folder;
   REQUIRE(run_command("synth brick -o map.png --size 24", folder).exit_code == 0);
   // Light from +x alone, in one of four columns.

@@ -76,10 +76,10 @@ TEST_CASE("lights that cannot be are refused in a line, and nothing is written",
                                    {"--sun 120,30 --sky overcast", 2, "excludes"},
                                    {"--sky none.exr", 1, "none.exr: no such file"},
                                    {"--sky hill.exr", 1, "hill.exr: "},
-                                   {"--direct negative.exr", 1, "negative.exr: has direct light"},
-                                   {"--direct nan.exr", 1, "nan.exr: has direct light"},
+                                   {"--direct negative.exr", 1, "negative.exr: has direct irradiance"},
+                                   {"--direct nan.exr", 1, "nan.exr: has direct irradiance"},
                                    {"--direct levels.png", 1, "levels.png: holds integers"},
-                                   {"--direct small.exr", 1, "small.exr: the direct light is 16 × 8"}}));
+                                   {"--direct small.exr", 1, "small.exr: the direct irradiance is 16 × 8"}}));
   for (const char* command : {"bake hill.exr --maps multibounce", "simulate hill.exr"}) {
     INFO(command << ' ' << wrong.options);
     const CommandResult result =

@@ -234,7 +234,7 @@ TEST_CASE("bounds hold on a simulated map, texel by texel", "[forms]") {
   const Surface surface = build_surface(make_synth_map("brick", 48, Boundary::tile, 0.15));
   const auto transport = build_exact_form_factors(surface, 16, {});
   const std::vector<double> albedos{0.2, 0.5, 0.7, 0.9};
-  std::vector<LightSystem> systems;
+  std::vector<IrradianceSystem> systems;
   for (const double albedo : albedos) systems.push_back({.albedo = albedo});
   const std::vector<TexelVector> totals = transport.solve(systems, {}).irradiance;
   for (std::size_t i = 0; i < transport.sky_view_factor.size(); ++i) {

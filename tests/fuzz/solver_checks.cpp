@@ -126,7 +126,7 @@ double walk_bound(const Surface& surface) {
 
 void compare_sky_walks(const Surface& surface, LargestDifferences& largest,
                        std::vector<std::string>& faults) {
-  const WalkOptions options{.azimuths = 6, .fineness = 8, .peak_share = 0.3F};
+  const WalkOptions options{.azimuths = 6, .samples_per_octave = 8, .peak_share = 0.3F};
   const WalkedSky lanes = walk_sky_with(look_far, walk_sky, surface, options);
   const WalkedSky twin = walk_sky_with(look_far_scalar, walk_sky_scalar, surface, options);
   for (const auto& [name, a, b] :
@@ -157,7 +157,7 @@ constexpr double kGatherBound = 0.65 * least_rise(8);
 
 void compare_gather_walks(const Surface& surface, std::uint64_t seed, LargestDifferences& largest,
                           std::vector<std::string>& faults) {
-  const WalkOptions options{.azimuths = 6, .fineness = 8, .peak_share = 0.3F};
+  const WalkOptions options{.azimuths = 6, .samples_per_octave = 8, .peak_share = 0.3F};
   const TexelVector values = random_field(surface, seed);
   Map field(surface.width(), surface.height());
   for (std::size_t i = 0; i < field.size(); ++i) {
@@ -225,9 +225,9 @@ void compare_threads(const char* name, const TexelVector& field, Build&& build, 
 
 /// Solves systems apart, with one thread, and together, with three: more than one gather reads at once.
 void compare_systems(const Transport& transport, const TexelVector& field, std::vector<std::string>& faults) {
-  const std::vector<LightSystem> systems{{.albedo = 0.2},    {.albedo = 0.9},
-                                         {.direct = &field}, {.direct = &field, .albedo = 0.5},
-                                         {.albedo = 1},      {.varying = &field}};
+  const std::vector<IrradianceSystem> systems{{.albedo = 0.2},    {.albedo = 0.9},
+                                              {.direct = &field}, {.direct = &field, .albedo = 0.5},
+                                              {.albedo = 1},      {.varying = &field}};
   const ThreadScope three_threads(3);
   const std::vector<TexelVector> together = transport.solve(systems, {}).irradiance;
   const ThreadScope one_thread(1);
@@ -250,8 +250,9 @@ void compare_operators(const Surface& surface, std::uint64_t seed, LargestDiffer
       [&] { return std::make_unique<FormFactors>(build_exact_form_factors(surface, 4, {})); }, largest,
       faults);
   // All azimuths of the sky everywhere.
-  const HorizonPlan plan{.sky = {.walk = {.azimuths = 16, .fineness = 8, .peak_share = 0.3F}, .full_from = 0},
-                         .gather = {.walk = {.azimuths = 8, .fineness = 8, .peak_share = 0.3F}}};
+  const HorizonPlan plan{
+      .sky = {.walk = {.azimuths = 16, .samples_per_octave = 8, .peak_share = 0.3F}, .full_from = 0},
+      .gather = {.walk = {.azimuths = 8, .samples_per_octave = 8, .peak_share = 0.3F}}};
   compare_threads(
       "horizon walks", field, [&] { return build_horizon_transport(surface, plan); }, largest, faults);
   compare_systems(*build_horizon_transport(surface, plan), field, faults);

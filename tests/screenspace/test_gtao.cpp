@@ -72,12 +72,12 @@ TEST_CASE("GTAO's lanes and its scalar twin agree on every instruction set", "[s
                                                 .distribution = StepDistribution::stratified,
                                                 .sampling = sampling,
                                                 .noise = DirectionNoise::temporal,
-                                                .reach = 0.3},
+                                                .radius = 0.3},
                                                2);
   GtaoPass pass{depth, tables};
   if (attenuated) {
     pass.attenuated = true;
-    pass.reach = 0.3F;
+    pass.radius = 0.3F;
     pass.per_falloff = 5;
     pass.thickness = 0.02F;
   }
@@ -110,11 +110,11 @@ TEST_CASE("GTAO's lanes and its scalar twin agree on every instruction set", "[s
 TEST_CASE("GTAO is what algorithm 1 says, line by line", "[screenspace]") {
   constexpr int kSlices = 4;
   constexpr int kSteps = 6;
-  constexpr double kReach = 0.4;
+  constexpr double kRadius = 0.4;
   const Surface surface = build_surface(make_rough_map(24, 20, Boundary::tile, 0.3, 0, 5));
   GtaoOptions options{.slices = kSlices, .steps = kSteps};
   options.noise = DirectionNoise::none;
-  options.reach = kReach;
+  options.radius = kRadius;
   options.bent_normal = true;
   const ScreenSpaceView view = gtao(make_depth_buffer(surface), options);
   const auto wrapped = [](int i, int count) { return ((i % count) + count) % count; };
@@ -131,7 +131,7 @@ TEST_CASE("GTAO is what algorithm 1 says, line by line", "[screenspace]") {
           const double sign = side == 0 ? -1 : 1;
           double cosine = -1;
           for (int k = 1; k <= kSteps; ++k) {
-            const double way = kReach * k * k / (kSteps * kSteps);
+            const double way = kRadius * k * k / (kSteps * kSteps);
             double u = sign * way * std::cos(azimuth) * 24;
             double v = -sign * way * std::sin(azimuth) * 24;
             const double larger = std::max(std::fabs(u), std::fabs(v));
@@ -166,7 +166,7 @@ TEST_CASE("a flat plane is open: exactly 1, whatever GTAO's options", "[screensp
   options.sampling = sampling;
   options.noise = noise;
   options.falloff = GENERATE(0.0, 0.5);
-  options.reach = 0.4;
+  options.radius = 0.4;
   options.divide_by_open = GENERATE(false, true);
   options.bent_normal = true;
   const ScreenSpaceView view = gtao(make_depth_buffer(surface), options);
@@ -194,7 +194,7 @@ TEST_CASE("GTAO tells the same for any number of threads, and for a map moved ar
   GtaoOptions options{.slices = 2, .steps = 6};
   options.distribution = StepDistribution::stratified;
   options.noise = DirectionNoise::temporal;
-  options.reach = 0.5;
+  options.radius = 0.5;
   const auto run = [&](const Heightmap& heights) {
     return gtao(make_depth_buffer(build_surface(heights)), options).sky_view_factor;
   };
@@ -293,7 +293,7 @@ TEST_CASE("GTAO refuses options outside their range", "[screenspace]") {
   GtaoOptions options;
   SECTION("no slices") { options.slices = 0; }
   SECTION("no steps") { options.steps = 0; }
-  SECTION("no reach") { options.reach = 0; }
+  SECTION("no reach") { options.radius = 0; }
   SECTION("a falloff beyond the reach") { options.falloff = 1.5; }
   SECTION("less than no thickness") { options.thickness = -1; }
   CHECK_THROWS_AS(gtao(depth, options), UsageError);

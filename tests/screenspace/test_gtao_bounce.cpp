@@ -25,7 +25,7 @@ TEST_CASE("the bounce's lanes and its scalar twin agree on every instruction set
                                                 .distribution = StepDistribution::stratified,
                                                 .sampling = sampling,
                                                 .noise = DirectionNoise::spatial,
-                                                .reach = 0.3},
+                                                .radius = 0.3},
                                                0);
   std::vector<float> radiance(depth.heights.size());
   for (int row = 0; row < depth.period_rows; ++row) {

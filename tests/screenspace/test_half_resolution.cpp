@@ -9,7 +9,7 @@
 namespace heightlight {
 namespace {
 
-constexpr GtaoOptions kPreset{.slices = 3, .steps = 3, .reach = 0.2};
+constexpr GtaoOptions kPreset{.slices = 3, .steps = 3, .radius = 0.2};
 
 double rms_apart(const Map& a, const Map& b) {
   double sum = 0;
@@ -46,7 +46,7 @@ TEST_CASE("at half resolution smooth ground loses next to nothing, and a quarter
   const DepthBuffer depth = make_depth_buffer(smooth);
   GtaoOptions options{
       .slices = 8, .steps = 32, .sampling = DepthSampling::mesh, .noise = DirectionNoise::none};
-  options.reach = 0.5;
+  options.radius = 0.5;
   const ScreenSpaceView half = gtao_half_resolution(depth, options);
   const ScreenSpaceView whole = gtao(depth, options);
   CHECK(half.samples_per_texel * 4 == whole.samples_per_texel);
@@ -61,7 +61,7 @@ TEST_CASE("the upscaling does not mix the two sides of a cliff", "[screenspace]"
   const DepthBuffer depth = make_depth_buffer(surface);
   GtaoOptions options = kPreset;
   options.noise = DirectionNoise::none;
-  options.reach = 0.5;
+  options.radius = 0.5;
   const Map half = gtao_half_resolution(depth, options).sky_view_factor;
   for (int row = 8; row < 56; ++row) {
     REQUIRE(half(row, 34) > 0.99F);
@@ -110,7 +110,7 @@ TEST_CASE("an accumulation buffer weighs the last turns most, and all of them to
 TEST_CASE("SSDO's smooth end only opens, and a hemisphere stays whole", "[screenspace]") {
   const Surface surface = build_surface(make_synth_map("brick", 64, Boundary::tile, 0.1));
   const DepthBuffer depth = make_depth_buffer(surface);
-  const SsdoOptions hard{.samples = 16, .noise = DirectionNoise::none, .reach = 0.1};
+  const SsdoOptions hard{.samples = 16, .noise = DirectionNoise::none, .radius = 0.1};
   SsdoOptions smooth = hard;
   smooth.smooth_end = true;
   const ScreenSpaceView without = ssdo(depth, {{.constant = 0.5}}, hard);

@@ -17,7 +17,7 @@ TEST_CASE("HBAO's lanes and its scalar twin agree on every instruction set", "[s
   const auto [width, height] = GENERATE(std::pair{67, 21}, std::pair{1, 1}, std::pair{5, 3});
   const Boundary boundary = GENERATE(Boundary::tile, Boundary::open);
   const DepthSampling sampling = GENERATE(DepthSampling::nearest, DepthSampling::mesh);
-  const float per_squared_reach = GENERATE(0.0F, 20.0F);
+  const float per_squared_radius = GENERATE(0.0F, 20.0F);
   const Surface surface = build_surface(make_rough_map(width, height, boundary, 0.1, 0.1, 3));
   const DepthBuffer depth = make_depth_buffer(surface);
   const SliceTables tables = make_slice_tables(depth,
@@ -26,9 +26,9 @@ TEST_CASE("HBAO's lanes and its scalar twin agree on every instruction set", "[s
                                                 .distribution = StepDistribution::stratified,
                                                 .sampling = sampling,
                                                 .noise = DirectionNoise::spatial,
-                                                .reach = 0.3},
+                                                .radius = 0.3},
                                                0);
-  const HbaoPass pass{depth, tables, per_squared_reach};
+  const HbaoPass pass{depth, tables, per_squared_radius};
   for (int row = 0; row < height; ++row) {
     std::vector<float> twin(static_cast<std::size_t>(width));
     hbao_row_scalar(pass, row, twin);
@@ -82,7 +82,7 @@ TEST_CASE("a flat plane is open to HBAO, and a tilted one", "[screenspace]") {
       make_map(32, 32, Boundary::open, [&](int row, int column) { return slope * (column + row) / 32; }));
   HbaoOptions options;
   options.attenuated = GENERATE(false, true);
-  options.reach = 0.3;
+  options.radius = 0.3;
   options.sampling = DepthSampling::mesh;
   for (const float value : hbao(make_depth_buffer(surface), options).sky_view_factor.values) {
     REQUIRE(value == Approx(1).margin(2e-6));  // rounding of slopes

@@ -19,10 +19,10 @@ Surface rough_surface(int width, int height, Boundary boundary) {
   return build_surface(make_rough_map(width, height, boundary, 0.1, 0.1, 3));
 }
 
-std::vector<TangentPoint> some_points(float reach) {
+std::vector<TangentPoint> some_points(float radius) {
   std::vector<TangentPoint> points;
   for (const Eigen::Vector3d& xi : relaxed_points(12)) {
-    const Eigen::Vector3d way = reach * (xi - Eigen::Vector3d(0.5, 0.5, 0.05));
+    const Eigen::Vector3d way = radius * (xi - Eigen::Vector3d(0.5, 0.5, 0.05));
     points.push_back(
         {static_cast<float>(way.x()), static_cast<float>(way.y()), static_cast<float>(way.z()), 0.1F, 0.02F});
   }
@@ -157,7 +157,7 @@ TEST_CASE("many tests on the way find what one misses: a thin wall", "[screenspa
                                        .tests = tests,
                                        .measure = FuzzyMeasure::step,
                                        .noise = DirectionNoise::none,
-                                       .reach = 0.3})
+                                       .radius = 0.3})
                          .sky_view_factor;
     double sum = 0;
     for (int column = 0; column < 64; ++column) {
@@ -171,7 +171,7 @@ TEST_CASE("many tests on the way find what one misses: a thin wall", "[screenspa
 
 TEST_CASE("under an even sky SSDO finds what it takes for A, with a smooth end too", "[screenspace]") {
   const DepthBuffer depth = make_depth_buffer(rough_surface(40, 37, Boundary::tile));
-  const SsdoOptions options{.samples = 16, .reach = 0.3, .smooth_end = GENERATE(false, true)};
+  const SsdoOptions options{.samples = 16, .radius = 0.3, .smooth_end = GENERATE(false, true)};
   const SkyGrid even = make_sky_grid({Image<Vector3>(2, 1, Vector3{2, 1, 0})}, ssdo_solid_angle(options));
   const Image<Vector3> light = ssdo_under_sky(depth, even, options);
   const Map open = ssdo(depth, {}, options).sky_view_factor;
@@ -188,7 +188,7 @@ TEST_CASE("SSDO sees which half of the sky a wall hides", "[screenspace]") {
   // A wall that runs along x: texels below it in the image look up (+y) at it.
   const Surface surface =
       build_surface(make_map(48, 48, Boundary::open, [](int row, int) { return row < 20 ? 0.4 : 0.0; }));
-  const SsdoOptions options{.samples = 64, .noise = DirectionNoise::spatial, .reach = 0.5};
+  const SsdoOptions options{.samples = 64, .noise = DirectionNoise::spatial, .radius = 0.5};
   const DepthBuffer depth = make_depth_buffer(surface);
   const ScreenSpaceView view = ssdo(depth, {{.constant = 0.5}}, options);
   // Red from y > 0, green from the rest.
@@ -209,7 +209,7 @@ TEST_CASE("point methods tell the same for any number of threads", "[screenspace
   const DepthBuffer depth = make_depth_buffer(rough_surface(40, 37, Boundary::tile));
   const auto run = [&] {
     ScreenSpaceView view =
-        ssdo(depth, {{.constant = 0.5}}, {.samples = 8, .noise = DirectionNoise::temporal, .reach = 0.3});
+        ssdo(depth, {{.constant = 0.5}}, {.samples = 8, .noise = DirectionNoise::temporal, .radius = 0.3});
     std::vector<float> all = view.sky_view_factor.values;
     all.insert(all.end(), view.totals[0].values.begin(), view.totals[0].values.end());
     const ScreenSpaceView other = ambient_transfer(depth, {{.constant = 0.5}}, {.samples = 8});
@@ -232,10 +232,10 @@ TEST_CASE("point methods refuse options outside their range", "[screenspace]") {
   CHECK_THROWS_AS(ambient_transfer(depth, {}, {.samples = 0}), UsageError);
   CHECK_THROWS_AS(ambient_transfer(depth, {}, {.samples = 4, .tests = 0}), UsageError);
   const AmbientTransferOptions no_reach{
-      .samples = 4, .tests = 1, .measure = FuzzyMeasure::root, .noise = DirectionNoise::none, .reach = 0};
+      .samples = 4, .tests = 1, .measure = FuzzyMeasure::root, .noise = DirectionNoise::none, .radius = 0};
   CHECK_THROWS_AS(ambient_transfer(depth, {}, no_reach), UsageError);
   CHECK_THROWS_AS(ssdo(depth, {}, {.samples = 0}), UsageError);
-  CHECK_THROWS_AS(ssdo(depth, {}, {.samples = 4, .noise = DirectionNoise::none, .reach = -1}), UsageError);
+  CHECK_THROWS_AS(ssdo(depth, {}, {.samples = 4, .noise = DirectionNoise::none, .radius = -1}), UsageError);
 }
 
 }  // namespace

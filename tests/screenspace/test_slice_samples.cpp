@@ -24,7 +24,7 @@ std::vector<double> sorted_azimuths(DirectionNoise noise, int slices) {
                                                   .distribution = StepDistribution::uniform,
                                                   .sampling = DepthSampling::nearest,
                                                   .noise = noise,
-                                                  .reach = 0.5},
+                                                  .radius = 0.5},
                                                  frame);
     for (const std::vector<Slice>& table : tables.of) {
       for (const Slice& slice : table) azimuths.push_back(std::atan2(double{slice.y}, double{slice.x}));
@@ -76,7 +76,7 @@ TEST_CASE("samples on the mesh weigh three texels by where they lie", "[screensp
                                                 .distribution = StepDistribution::quadratic,
                                                 .sampling = DepthSampling::mesh,
                                                 .noise = DirectionNoise::spatial,
-                                                .reach = 0.7},
+                                                .radius = 0.7},
                                                0);
   const auto from_receiver = [](int offset, int period) {
     return offset > period / 2 ? offset - period : offset;
@@ -118,7 +118,7 @@ TEST_CASE("the nearest sample is never the receiver, and knows its own distance"
                                                 .distribution = StepDistribution::quadratic,
                                                 .sampling = DepthSampling::nearest,
                                                 .noise = DirectionNoise::spatial,
-                                                .reach = 0.2},
+                                                .radius = 0.2},
                                                0);
   for (const std::vector<Slice>& table : tables.of) {
     for (const Slice& slice : table) {

@@ -80,7 +80,7 @@ TEST_CASE("light's unit changes neither plan nor relative error", "[solve]") {
   for (double& light : sun) light *= 1024;
   const GatherPlan brighter = find_operator(surface, total_of({sun})).plan.gather;
   CHECK(brighter.walk.azimuths == plan.walk.azimuths);
-  CHECK(brighter.walk.fineness == plan.walk.fineness);
+  CHECK(brighter.walk.samples_per_octave == plan.walk.samples_per_octave);
   CHECK(brighter.error == plan.error);  // identity: a power of two
 }
 

@@ -64,7 +64,7 @@ TEST_CASE("a solve that did not converge is told", "[solve]") {
 TEST_CASE("a plan that cannot be walked is refused before anything is found", "[solve]") {
   Request request = coarse_request();
   request.wanted.sky = true;
-  request.accuracy.plan = HorizonPlan{.sky = {.walk = {.azimuths = 16, .fineness = 0}}};
+  request.accuracy.plan = HorizonPlan{.sky = {.walk = {.azimuths = 16, .samples_per_octave = 0}}};
   CHECK_THROWS_AS(solve(make_surface("brick", 16, 0.1F), request), UsageError);
 }
 
@@ -367,7 +367,8 @@ TEST_CASE("requests without sense name the quantity", "[solve]") {
   CHECK(quantity_of(with([](Request& r) { r.accuracy = {.visibility = Visibility::rays, .rays = 0}; })) ==
         "rays");
   CHECK(quantity_of(with([](Request& r) { r.wanted.bounces = -1; })) == "bounces");
-  CHECK(quantity_of(with([](Request& r) { r.wanted.reach = Reach{.distance = -1}; })) == "max_distance");
+  CHECK(quantity_of(with([](Request& r) { r.wanted.maximum_distance = MaximumDistance{.distance = -1}; })) ==
+        "max_distance");
   CHECK(quantity_of(with([](Request& r) { r.wanted.totals = {{}}; })) == "albedo");
   CHECK(quantity_of(with([](Request& r) { r.wanted.totals = {{.constant = {2}}}; })) == "albedo");
   CHECK(quantity_of(with([](Request& r) { r.wanted.totals = {{.varying = {TexelVector(3, 0.5)}}}; })) ==

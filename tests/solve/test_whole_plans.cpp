@@ -37,7 +37,7 @@ TEST_CASE("the study of reliefs walks all azimuths of its plan", "[solve]") {
   CHECK(plan.sky.walk.azimuths == 48);
   CHECK(plan.sky.full_from == 0);
   CHECK(plan.gather.walk.azimuths == 8);
-  CHECK(plan.gather.walk.fineness == 16);
+  CHECK(plan.gather.walk.samples_per_octave == 16);
 
   const Surface wall = make_wall(128);
   Request request;

@@ -59,7 +59,7 @@ TEST_CASE("horizon walks are what extended precision finds, on every hard map", 
   for (const HardMap& hard : hard_maps()) {
     CAPTURE(hard.name);
     const Surface surface = build_surface(hard.map);
-    const WalkOptions walk{.azimuths = kAzimuths, .fineness = 32, .peak_share = 0.3F};
+    const WalkOptions walk{.azimuths = kAzimuths, .samples_per_octave = 32, .peak_share = 0.3F};
     const auto walked = build_horizon_transport(surface, {.sky = {.walk = walk}, .gather = {.walk = walk}});
     // Identity in single precision where every breakpoint counts, but for edges without a facet, which only
     // walks see. Else discretisation, as long as the map is no steeper than a wall as high as the map is

@@ -66,7 +66,7 @@ TEST_CASE("where single precision ends, double goes on: A at the bottom of ever 
   CHECK(view.sky_view_factor == Approx(expected).epsilon(1e-12).margin(0));
   // Fast walks sum in single precision: good to 10⁻⁷ of the whole hemisphere, which below A = 10⁻⁷ is all of
   // A. Maps ask for no more; `--error 0` walks exactly.
-  const WalkOptions walk{.azimuths = 32, .fineness = 32, .peak_share = 0.3F};
+  const WalkOptions walk{.azimuths = 32, .samples_per_octave = 32, .peak_share = 0.3F};
   const auto walked = build_horizon_transport(surface, {.sky = {.walk = walk}, .gather = {.walk = walk}});
   CHECK(std::fabs(walked->sky_view_factor(4, 4) - expected) < 3e-7);
 }

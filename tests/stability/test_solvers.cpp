@@ -95,7 +95,7 @@ TEST_CASE("a well a thousand times as deep as wide keeps what falls in, and says
 TEST_CASE("totals by few gathers are right where bounces die out slowly", "[stability]") {
   const Heightmap map = make_rough_map(16, 16, Boundary::tile, 2.0, 0, 4);
   const Surface surface = build_surface(map);
-  const WalkOptions walk{.azimuths = 128, .fineness = 32, .peak_share = 0.3F};
+  const WalkOptions walk{.azimuths = 128, .samples_per_octave = 32, .peak_share = 0.3F};
   const HorizonPlan plan{.sky = {.walk = walk}, .gather = {.walk = walk}};
   constexpr double kError = 1e-4;
   const std::unique_ptr<Transport> transport = build_horizon_transport(surface, plan, kError);
@@ -114,8 +114,8 @@ TEST_CASE("a hundred gathers of ones: what all receivers see of ones stays one",
   constexpr int kBounces = 100;
   const Surface surface = build_surface(make_synth_map("brick", kSize, Boundary::tile, 0.2));
   const SteadyWalks transport(
-      build_horizon_transport(surface, {.sky = {.walk = {.azimuths = 64, .fineness = 16}},
-                                        .gather = {.walk = {.azimuths = 32, .fineness = 16}}}));
+      build_horizon_transport(surface, {.sky = {.walk = {.azimuths = 64, .samples_per_octave = 16}},
+                                        .gather = {.walk = {.azimuths = 32, .samples_per_octave = 16}}}));
   const double row_sums = gathered_ones_error(transport);
   CHECK(row_sums < 1e-12);
   // light that is 1 everywhere is what E₀ and one bounce of it give back

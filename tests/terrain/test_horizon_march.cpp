@@ -79,8 +79,8 @@ TEST_CASE("a march finds the steepest of the nearest cells", "[terrain]") {
   CHECK(slope({.azimuth_rad = 0}, 4, 7) == 0);
   CHECK(slope({.azimuth_rad = 0}, 4, 8) == kNothing);  // the first step leaves the map
   CHECK(slope({.azimuth_rad = pi}, 4, 8) == Approx(6.0 / 4));
-  CHECK(slope({.azimuth_rad = 0, .reach = 4}, 4, 2) == Approx(6.0 / 8));
-  CHECK(slope({.azimuth_rad = 0, .reach = 3}, 4, 2) == 0);
+  CHECK(slope({.azimuth_rad = 0, .cells = 4}, 4, 2) == Approx(6.0 / 8));
+  CHECK(slope({.azimuth_rad = 0, .cells = 3}, 4, 2) == 0);
   CHECK(std::isnan(slope({.azimuth_rad = 1}, 3, 5)));
   CHECK(slope({.azimuth_rad = 0}, 3, 4) == 0);  // a hole hides nothing
   // Up the map, to the right: the first step of one cell ends 0.3 short of the diagonal neighbour's middle.
@@ -96,8 +96,8 @@ TEST_CASE("a march steps by the shorter side of a cell", "[terrain]") {
   const Surface surface = build_surface(map);
   CHECK(march_horizon(surface, {.azimuth_rad = pi / 2, .distance = CellDistance::to_cell})(4, 1) ==
         Approx(3.0 / 12));
-  CHECK(march_horizon(surface, {.azimuth_rad = pi / 2, .reach = 10})(4, 1) == 0);
-  CHECK(march_horizon(surface, {.azimuth_rad = pi / 2, .reach = 12})(4, 1) > 0.2);
+  CHECK(march_horizon(surface, {.azimuth_rad = pi / 2, .cells = 10})(4, 1) == 0);
+  CHECK(march_horizon(surface, {.azimuth_rad = pi / 2, .cells = 12})(4, 1) > 0.2);
 }
 
 /// A map of cells of 1 by 1.
@@ -167,7 +167,7 @@ TEST_CASE("with distances of cells a march comes near that of rastertools", "[te
   const Surface surface = build_surface(load_shared(*dem, 0.5).map);
   const Heightmap reference = load_shared(*theirs, 0.5).map;
   const auto rms = [&](CellDistance distance) {
-    const auto found = march_quantities(surface, 16, {.reach = 50, .distance = distance},
+    const auto found = march_quantities(surface, 16, {.cells = 50, .distance = distance},
                                         {{.definition = SkyDefinition::mean_cos_h}});
     Image<double> values(surface.width(), surface.height());
     for (std::size_t i = 0; i < values.size(); ++i) values.values[i] = double{found[0].map.values[i]};
@@ -181,7 +181,7 @@ TEST_CASE("a march is the same for any number of threads", "[terrain]") {
   const Surface surface = build_surface(make_rough_map(40, 30, Boundary::open, 0.1, 0, 3));
   const auto with_threads = [&](int threads) {
     const ThreadScope scope(threads);
-    return march_quantities(surface, 8, {.reach = 20}, terrain_quantities())[1].map;
+    return march_quantities(surface, 8, {.cells = 20}, terrain_quantities())[1].map;
   };
   CHECK(with_threads(1) == with_threads(3));
 }

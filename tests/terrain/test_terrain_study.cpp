@@ -77,7 +77,7 @@ TEST_CASE("forms are tried under the sky and the sun, and their table agrees wit
     const double most = light == "sky" ? 0.5 : 0.85;  // where a sun leaves shadows, no mean is everybody's
     for (const double albedo : options.albedos) {
       const TerrainFormRow& none = row_of(trial, light, albedo, "none");
-      CHECK(none.error.bias == Approx(-none.reflected));  // identity: direct light is all that it has
+      CHECK(none.error.bias == Approx(-none.reflected));  // identity: direct irradiance is all that it has
       CHECK(row_of(trial, light, albedo, "seen_from_deep").error.rmse < most * none.error.rmse);
       CHECK(row_of(trial, light, albedo, "window_series").error.rmse < most * none.error.rmse);
     }
@@ -117,7 +117,7 @@ TEST_CASE("a study compares methods, and its errors do not depend on threads", "
   const auto rmse = [&](const std::string& method, int azimuths, const TerrainQuantity& quantity) {
     const auto row =
         std::find_if(study.methods.begin(), study.methods.end(), [&](const TerrainMethodRow& one) {
-          return one.method == method && one.azimuths == azimuths && one.reach == 0 &&
+          return one.method == method && one.azimuths == azimuths && one.cells == 0 &&
                  one.quantity == quantity;
         });
     REQUIRE(row != study.methods.end());

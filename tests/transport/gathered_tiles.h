@@ -25,10 +25,10 @@ struct GatheredMap {
 /// Gathers tile after tile with a kernel of one's choice, all azimuths everywhere.
 inline GatheredMap gather_with(WalkGather walk, const Surface& surface, const WalkOptions& options,
                                const std::vector<Map>& fields) {
-  const HorizonScene scene = build_horizon_scene(surface, build_height_mips(surface), options);
+  const HorizonScene scene = build_horizon_scene(surface, build_height_pyramid(surface), options);
   const int levels = std::max(ring_count(surface, options), levels_to_one(surface.width(), surface.height()));
   std::vector<FieldPyramid> pyramids;
-  for (const Map& field : fields) pyramids.emplace_back(surface, levels, walk_reach(options)).fill(field);
+  for (const Map& field : fields) pyramids.emplace_back(surface, levels, walk_margin(options)).fill(field);
   const GatherWalk azimuths = make_gather_walk(surface, options, 0.25, pyramids[0]);
   GatheredMap result;
   result.weight.resize(surface.map.height.size());

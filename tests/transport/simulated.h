@@ -30,16 +30,19 @@ inline Finder by_rays(int rays, std::uint64_t seed = 1) {
       }};
 }
 
-/// Along 64 azimuths for the sky, 32 for gathers. Up to half their fineness, in texels, walks see all of the
-/// surface; beyond it they meet the rows or the columns only, and from four times the fineness on blocks.
-inline Finder by_horizon_walks(int fineness = 32) {
-  return {"horizon walks",
-          [=](const Surface& surface) {
-            return build_horizon_transport(
-                surface, {.sky = {.walk = {.azimuths = 64, .fineness = fineness, .peak_share = 0.3F}},
-                          .gather = {.walk = {.azimuths = 32, .fineness = 32, .peak_share = 0.3F}}});
-          },
-          kWalkResidual, false};
+/// Along 64 azimuths for the sky, 32 for gathers. Up to half their samples per octave, in texels, walks see
+/// all of the surface; beyond it they meet the rows or the columns only, and from four times the samples per
+/// octave on blocks.
+inline Finder by_horizon_walks(int samples_per_octave = 32) {
+  return {
+      "horizon walks",
+      [=](const Surface& surface) {
+        return build_horizon_transport(
+            surface,
+            {.sky = {.walk = {.azimuths = 64, .samples_per_octave = samples_per_octave, .peak_share = 0.3F}},
+             .gather = {.walk = {.azimuths = 32, .samples_per_octave = 32, .peak_share = 0.3F}}});
+      },
+      kWalkResidual, false};
 }
 
 /// Horizon walks whose bounces all look along the same azimuths, so that one F takes each to the next: what
@@ -54,7 +57,7 @@ class SteadyWalks : public Transport {
 
   TexelVector gather(const TexelVector& x) const override { return walks_->gather(x); }
   TexelVector surface_share() const override { return walks_->surface_share(); }
-  Totals solve(const std::vector<LightSystem>& systems, const Watch& watch) const override {
+  Totals solve(const std::vector<IrradianceSystem>& systems, const Watch& watch) const override {
     return walks_->solve(systems, watch);
   }
   std::uint64_t link_count() const override { return walks_->link_count(); }
@@ -64,9 +67,9 @@ class SteadyWalks : public Transport {
   std::unique_ptr<Transport> walks_;
 };
 
-inline Finder by_steady_walks(int fineness = 32) {
+inline Finder by_steady_walks(int samples_per_octave = 32) {
   return {"steady horizon walks",
-          [walks = by_horizon_walks(fineness)](const Surface& surface) {
+          [walks = by_horizon_walks(samples_per_octave)](const Surface& surface) {
             return std::make_unique<SteadyWalks>(walks.find(surface));
           },
           kWalkResidual};

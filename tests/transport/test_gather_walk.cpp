@@ -94,9 +94,9 @@ void for_receivers(const Surface& surface, Visit&& visit) {
 TEST_CASE("the gather's lanes and its one lane see the same light on every instruction set",
           "[transport][gather]") {
   const auto [name, map] = ground(GENERATE(range(0, kGrounds)));
-  const int fineness = GENERATE(8, 32);
+  const int samples_per_octave = GENERATE(8, 32);
   const Surface surface = build_surface(map);
-  const WalkOptions options{.azimuths = 12, .fineness = fineness, .peak_share = 0.3F};
+  const WalkOptions options{.azimuths = 12, .samples_per_octave = samples_per_octave, .peak_share = 0.3F};
   const std::vector<Map> fields{noisy_field(surface, 7), smooth_map(surface)};
   const GatheredMap one = gather_with(walk_gather_by_one, surface, options, fields);
   for (const std::int64_t target : instruction_sets()) {
@@ -114,13 +114,13 @@ TEST_CASE("the gather's lanes and its one lane see the same light on every instr
         squares += error * error / static_cast<double>(2 * surface.map.height.size());
       }
     });
-    INFO(name << ", fineness " << fineness << ", " << hwy::TargetName(target) << ": weight " << weight
-              << ", light " << light << ", RMS " << std::sqrt(squares));
+    INFO(name << ", fineness " << samples_per_octave << ", " << hwy::TargetName(target) << ": weight "
+              << weight << ", light " << light << ", RMS " << std::sqrt(squares));
     // Where no sample can rise by β above what any lane has seen, all of them end. So much of a slope weighs
     // up to 0.65 as much over level ground (measured, in β: 0.25, 0.07 and 0.004).
-    CHECK(weight < 0.65 * least_rise(fineness));
-    CHECK(light < 0.15 * least_rise(fineness));
-    CHECK(std::sqrt(squares) < 0.006 * least_rise(fineness));
+    CHECK(weight < 0.65 * least_rise(samples_per_octave));
+    CHECK(light < 0.15 * least_rise(samples_per_octave));
+    CHECK(std::sqrt(squares) < 0.006 * least_rise(samples_per_octave));
   }
 }
 
@@ -128,7 +128,7 @@ TEST_CASE("what a gather sees weighs what the sky's walk leaves of the hemispher
   const auto [name, map] = ground(GENERATE(range(0, kGrounds)));
   // So fine that all but the farthest things are looked at by each receiver, as gathers walk; so many
   // azimuths that Σ S(m₀) = K to exp(−K asinh(1/2)) = 10⁻⁵ where the sky's walk takes it to be K.
-  const WalkOptions options{.azimuths = 24, .fineness = 32, .peak_share = 0.3F};
+  const WalkOptions options{.azimuths = 24, .samples_per_octave = 32, .peak_share = 0.3F};
   const Surface surface = build_surface(map);
   const WalkedSky sky = walk_sky_with(look_far, walk_sky, surface, options);
   for (const WalkGather walk : {walk_gather, walk_gather_by_one}) {
@@ -140,7 +140,7 @@ TEST_CASE("what a gather sees weighs what the sky's walk leaves of the hemispher
     });
     INFO(name << ": " << worst << " of an azimuth's");
     // a last rise of less than β goes unseen, as above (measured: 6e-3)
-    CHECK(worst < 0.65 * least_rise(options.fineness));
+    CHECK(worst < 0.65 * least_rise(options.samples_per_octave));
   }
 }
 
@@ -161,10 +161,10 @@ TEST_CASE("turns are even whatever azimuths are left out", "[transport][gather]"
 
 TEST_CASE("a field that is the same everywhere is gathered as it is", "[transport][gather]") {
   const auto [name, map] = ground(GENERATE(range(0, kGrounds)));
-  const int fineness = GENERATE(8, 32);
+  const int samples_per_octave = GENERATE(8, 32);
   const Surface surface = build_surface(map);
-  const WalkOptions options{.azimuths = 8, .fineness = fineness, .peak_share = 0.3F};
-  INFO(name << ", fineness " << fineness);
+  const WalkOptions options{.azimuths = 8, .samples_per_octave = samples_per_octave, .peak_share = 0.3F};
+  INFO(name << ", fineness " << samples_per_octave);
   for (const float constant : {1.0F, 0.37F, 1e-20F}) {
     const Map field = make_field(surface, [&](int, int) { return constant; });
     for (const WalkGather walk : {walk_gather, walk_gather_by_one}) {
@@ -190,8 +190,8 @@ TEST_CASE("what is gathered lies between the least and the most of a field", "[t
   const Map field = make_field(surface, [&](int row, int column) {
     return 5 + unit_real(hash_combine(3, surface.map.height.index(row, column)));
   });
-  const GatheredMap gathered =
-      gather_with(walk_gather, surface, {.azimuths = 8, .fineness = 8, .peak_share = 0.3F}, {field});
+  const GatheredMap gathered = gather_with(
+      walk_gather, surface, {.azimuths = 8, .samples_per_octave = 8, .peak_share = 0.3F}, {field});
   INFO(name);
   for_receivers(surface, [&](std::size_t i) {
     if (gathered.weight[i] == 0) return;
@@ -203,7 +203,7 @@ TEST_CASE("what is gathered lies between the least and the most of a field", "[t
 TEST_CASE("several fields at once give each what it gives alone", "[transport][gather]") {
   const auto [name, map] = ground(GENERATE(0, 3, 5, 8));
   const Surface surface = build_surface(map);
-  const WalkOptions options{.azimuths = 8, .fineness = 8, .peak_share = 0.3F};
+  const WalkOptions options{.azimuths = 8, .samples_per_octave = 8, .peak_share = 0.3F};
   std::vector<Map> fields;
   for (std::uint64_t seed = 0; seed < kMostFields; ++seed) fields.push_back(noisy_field(surface, seed));
   INFO(name);
@@ -266,8 +266,8 @@ TEST_CASE("gathers among bricks are exact ones along the same azimuths, but for 
   // (measured, the worse of both: 3.9e-4, 1.5e-3, 1.8e-3)
   for (const auto& [relief, bound] : {Step{0.1, 5e-4}, Step{0.4, 1.7e-3}, Step{1, 2e-3}}) {
     const Surface surface = build_surface(make_synth_map("brick", 64, boundary, relief));
-    const double error = error_against_exact(surface, {.azimuths = 48, .fineness = 48, .peak_share = 0.3F},
-                                             sky_of(surface), 3);
+    const double error = error_against_exact(
+        surface, {.azimuths = 48, .samples_per_octave = 48, .peak_share = 0.3F}, sky_of(surface), 3);
     INFO("relief " << relief << ", " << to_string(boundary) << ": " << error);
     CHECK(error < bound);
   }
@@ -278,8 +278,8 @@ TEST_CASE("receivers on walls ever so steep see what is there", "[transport][gat
   const Surface surface = build_surface(make_map(64, 64, Boundary::tile, [&](int row, int column) {
     return column % 32 >= 8 && column % 32 <= 24 && row % 32 > 4 ? 0.0 : depth;
   }));
-  const double error =
-      error_against_exact(surface, {.azimuths = 48, .fineness = 48, .peak_share = 0.3F}, sky_of(surface), 3);
+  const double error = error_against_exact(
+      surface, {.azimuths = 48, .samples_per_octave = 48, .peak_share = 0.3F}, sky_of(surface), 3);
   INFO("depth " << depth << ": " << error);
   CHECK(error < 3e-3);  // discretisation, as above (measured: 9e-4 to 2.0e-3)
 }
@@ -305,15 +305,16 @@ TEST_CASE("gathers of a smooth field come near exact ones, ever nearer with azim
     exact[i] = gather_exactly(view, surface, [&](std::size_t seen) { return double{field.values[seen]}; });
   });
   struct Step {
-    int azimuths, fineness;
+    int azimuths, samples_per_octave;
     double bound;
   };
   // discretisation: of azimuths and of samples, and of blocks where light is read (measured, the worst of the
   // six maps: 3.5e-3, 1.3e-3, 6.4e-4 of a field of order 1, of which up to 0.14 is gathered)
-  for (const auto& [azimuths, fineness, bound] :
+  for (const auto& [azimuths, samples_per_octave, bound] :
        {Step{8, 8, 5e-3}, Step{16, 16, 1.8e-3}, Step{32, 32, 8e-4}}) {
     const GatheredMap gathered = gather_with(
-        walk_gather, surface, {.azimuths = azimuths, .fineness = fineness, .peak_share = 0.3F}, {field});
+        walk_gather, surface,
+        {.azimuths = azimuths, .samples_per_octave = samples_per_octave, .peak_share = 0.3F}, {field});
     double squares = 0;
     for (std::size_t i = 0; i < kTried; ++i) {
       const std::size_t at = texel(i);
@@ -349,12 +350,12 @@ GatheredMap gather_map(const Surface& surface, const MapGather& gather, const Ga
 
 TEST_CASE("gathers over maps are those of their tiles, on any number of threads", "[transport][gather]") {
   const Surface surface = build_surface(make_rough_map(150, 131, Boundary::tile, 0.3, 0.1, 6));
-  const WalkOptions options{.azimuths = 6, .fineness = 8, .peak_share = 0.3F};
+  const WalkOptions options{.azimuths = 6, .samples_per_octave = 8, .peak_share = 0.3F};
   const Map field = noisy_field(surface, 1);
   const GatheredMap expected = gather_with(walk_gather, surface, options, {field});
   for (const int threads : {1, 3}) {
     const ThreadScope scope(threads);
-    const MapGather gather(surface, build_height_mips(surface), options);
+    const MapGather gather(surface, build_height_pyramid(surface), options);
     const GatheredMap got = gather_map(surface, gather, {.azimuths = 6}, field);
     for_receivers(surface, [&](std::size_t i) {
       REQUIRE(got.weight[i] == expected.weight[i]);
@@ -365,8 +366,8 @@ TEST_CASE("gathers over maps are those of their tiles, on any number of threads"
 
 TEST_CASE("strips of a tile are gathered as the whole is", "[transport][gather]") {
   const Surface surface = build_surface(make_synth_map("brick", 96, Boundary::tile, 0.2));
-  const WalkOptions options{.azimuths = 6, .fineness = 8, .peak_share = 0.3F};
-  const MapGather gather(surface, build_height_mips(surface), options);
+  const WalkOptions options{.azimuths = 6, .samples_per_octave = 8, .peak_share = 0.3F};
+  const MapGather gather(surface, build_height_pyramid(surface), options);
   const Map field = noisy_field(surface, 1);
   const GatheredMap expected = gather_map(surface, gather, {.azimuths = 6}, field);
   FieldPyramid pyramid = gather.make_pyramid();
@@ -400,7 +401,8 @@ TEST_CASE("receivers that see less walk fewer azimuths, as evenly spread", "[tra
     CHECK(azimuth_halvings(share) >= azimuth_halvings(share + 0.01));
   const int azimuths = GENERATE(2, 4, 6, 8, 10, 12, 16, 24, 48);
   const Surface surface = build_surface(make_synth_map("brick", 70, Boundary::open, 0.3));
-  const MapGather gather(surface, build_height_mips(surface), {.fineness = 8, .peak_share = 0.3F});
+  const MapGather gather(surface, build_height_pyramid(surface),
+                         {.samples_per_octave = 8, .peak_share = 0.3F});
   const Map field = noisy_field(surface, 1);
   for (const double share : {0.5, 0.2, 0.1, 0.02}) {
     const int part = azimuths / halved_azimuths(azimuths, azimuth_halvings(share));

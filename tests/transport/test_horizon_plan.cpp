@@ -22,9 +22,9 @@ Surface make_ground(const std::string& name) {
 }
 
 std::unique_ptr<Transport> walk(const Surface& surface) {
-  return build_horizon_transport(surface,
-                                 {.sky = {.walk = {.azimuths = 24, .fineness = 16, .peak_share = 0.3F}},
-                                  .gather = {.walk = {.azimuths = 16, .fineness = 16, .peak_share = 0.3F}}});
+  return build_horizon_transport(
+      surface, {.sky = {.walk = {.azimuths = 24, .samples_per_octave = 16, .peak_share = 0.3F}},
+                .gather = {.walk = {.azimuths = 16, .samples_per_octave = 16, .peak_share = 0.3F}}});
 }
 
 struct Goal {
@@ -36,7 +36,7 @@ struct Goal {
 
 /// Plans, bounces at ρ = 0.8, and has exact walks of receivers outside the calibration sample judge the
 /// result.
-HorizonCheck reach(const Goal& goal, Boundary boundary) {
+HorizonCheck maximum_distance(const Goal& goal, Boundary boundary) {
   const Surface surface = build_surface(make_synth_map(goal.shape.c_str(), goal.size, boundary, goal.relief));
   const PlannedTransport planned = plan_horizon_transport(surface, {.error = goal.error});
   const TexelVector total = total_of(*planned.transport, 0.8);
@@ -45,7 +45,7 @@ HorizonCheck reach(const Goal& goal, Boundary boundary) {
 }
 
 void check_goal(const Goal& goal, Boundary boundary) {
-  const HorizonCheck check = reach(goal, boundary);
+  const HorizonCheck check = maximum_distance(goal, boundary);
   INFO(goal.shape << ", " << goal.size << ", relief " << goal.relief << ", " << to_string(boundary)
                   << ", error " << goal.error << ": A " << check.sky_rmse << ", total " << check.total_rmse);
   CHECK(check.receivers >= 256);
@@ -95,8 +95,8 @@ TEST_CASE("totals by few gathers are those of the solver, within the error that 
   const double error = GENERATE(1e-2, 2e-3);
   const Surface surface = make_ground(name);
   // So many azimuths that it hardly matters which they are.
-  const HorizonPlan plan{.sky = {.walk = {.azimuths = 24, .fineness = 16, .peak_share = 0.3F}},
-                         .gather = {.walk = {.azimuths = 128, .fineness = 16, .peak_share = 0.3F}}};
+  const HorizonPlan plan{.sky = {.walk = {.azimuths = 24, .samples_per_octave = 16, .peak_share = 0.3F}},
+                         .gather = {.walk = {.azimuths = 128, .samples_per_octave = 16, .peak_share = 0.3F}}};
   const auto transport = build_horizon_transport(surface, plan, error);
   const std::vector<double> albedos{0.3, 0.8, 0.95};
   int most = 0;

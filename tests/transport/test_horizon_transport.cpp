@@ -22,8 +22,8 @@ namespace heightlight {
 namespace {
 
 HorizonPlan cheap_plan() {
-  return {.sky = {.walk = {.azimuths = 16, .fineness = 16, .peak_share = 0.3F}},
-          .gather = {.walk = {.azimuths = 12, .fineness = 8, .peak_share = 0.3F}}};
+  return {.sky = {.walk = {.azimuths = 16, .samples_per_octave = 16, .peak_share = 0.3F}},
+          .gather = {.walk = {.azimuths = 12, .samples_per_octave = 8, .peak_share = 0.3F}}};
 }
 
 /// Of order 1, with a period of the map's size.
@@ -47,9 +47,9 @@ TEST_CASE("walks find about as much surface as their sky leaves, the finer the n
   HorizonPlan plan = cheap_plan();
   plan.gather.first_bounce_azimuths = 64;
   double before = 1;
-  for (const int fineness : {4, 8, 16, 32}) {
-    plan.gather.walk.fineness = fineness;
-    plan.sky.walk = {.azimuths = 64, .fineness = fineness, .peak_share = 0.3F};
+  for (const int samples_per_octave : {4, 8, 16, 32}) {
+    plan.gather.walk.samples_per_octave = samples_per_octave;
+    plan.sky.walk = {.azimuths = 64, .samples_per_octave = samples_per_octave, .peak_share = 0.3F};
     const auto transport = build_horizon_transport(surface, plan);
     for (const double share : transport->surface_share()) REQUIRE((share >= 0 && share < 1.001));
     const RowSumError error = row_sum_error(*transport);
@@ -92,14 +92,14 @@ TEST_CASE("two threads may gather at once", "[transport][horizon]") {
 TEST_CASE("plans that cannot be walked are refused", "[transport][horizon]") {
   const Surface surface = build_surface(make_rough_map(9, 9, Boundary::tile, 0.5, 0, 3));
   std::vector<HorizonPlan> bad(8, cheap_plan());
-  bad[0].sky.walk.fineness = 0;
-  bad[1].gather.walk.fineness = -3;
+  bad[0].sky.walk.samples_per_octave = 0;
+  bad[1].gather.walk.samples_per_octave = -3;
   bad[2].sky.walk.azimuths = 7;
   bad[3].gather.walk.azimuths = 65536;
   bad[4].gather.first_bounce_azimuths = 8192;
   bad[5].sky = {.walk = {.azimuths = 18}, .full_from = 0.3F};
   bad[6].sky.walk.peak_share = 2;
-  bad[7].gather.walk.fineness = 1000;
+  bad[7].gather.walk.samples_per_octave = 1000;
   for (const HorizonPlan& plan : bad) CHECK_THROWS_AS(build_horizon_transport(surface, plan), UsageError);
   CHECK_NOTHROW(build_horizon_transport(surface, cheap_plan()));
 }
@@ -238,8 +238,8 @@ TEST_CASE("any other shift changes A and gathers by no more than sampling errs: 
   const Heightmap map = make_synth_map(shape, kSize, Boundary::tile, 0.2);
   const Surface here = build_surface(map);
   const Surface there = build_surface(shift_map(map, 19, 31));
-  const HorizonPlan plan{.sky = {.walk = {.azimuths = 16, .fineness = 32, .peak_share = 0.3F}},
-                         .gather = {.walk = {.azimuths = 32, .fineness = 16, .peak_share = 0.3F}}};
+  const HorizonPlan plan{.sky = {.walk = {.azimuths = 16, .samples_per_octave = 32, .peak_share = 0.3F}},
+                         .gather = {.walk = {.azimuths = 32, .samples_per_octave = 16, .peak_share = 0.3F}}};
   const auto transport = build_horizon_transport(here, plan);
   const auto shifted = build_horizon_transport(there, plan);
   const TexelVector& field = transport->direct;
@@ -288,21 +288,24 @@ TEST_CASE("gathers of the sky's light come near exact ones, ever nearer with azi
   const std::string shape = GENERATE("brick", "fbm", "sines");
   const Boundary boundary = GENERATE(Boundary::tile, Boundary::open);
   const Surface surface = build_surface(make_synth_map(shape.c_str(), 128, boundary, 0.1));
-  const auto plan = [](int azimuths, int fineness) {
-    return HorizonPlan{.sky = {.walk = {.azimuths = 64, .fineness = 32, .peak_share = 0.3F}},
-                       .gather = {.walk = {.azimuths = azimuths, .fineness = fineness, .peak_share = 0.3F}}};
+  const auto plan = [](int azimuths, int samples_per_octave) {
+    return HorizonPlan{
+        .sky = {.walk = {.azimuths = 64, .samples_per_octave = 32, .peak_share = 0.3F}},
+        .gather = {
+            .walk = {.azimuths = azimuths, .samples_per_octave = samples_per_octave, .peak_share = 0.3F}}};
   };
   const TexelVector light = total_of(*build_horizon_transport(surface, plan(64, 32)), 0.8);
   const std::vector<double> exact = gather_exactly_where_tried(surface, light);
   struct Step {
-    int azimuths, fineness;
+    int azimuths, samples_per_octave;
     double bound;
   };
   // discretisation: of azimuths, fewer where little is seen, and of samples (measured, the worst of the six
   // maps: 4.3e-3, 1.8e-3, 8.7e-4 of a field of order 1, of which up to 0.14 is gathered)
-  for (const auto& [azimuths, fineness, bound] :
+  for (const auto& [azimuths, samples_per_octave, bound] :
        {Step{8, 8, 5e-3}, Step{16, 16, 2.2e-3}, Step{32, 32, 1.1e-3}}) {
-    const TexelVector gathered = gather(*build_horizon_transport(surface, plan(azimuths, fineness)), light);
+    const TexelVector gathered =
+        gather(*build_horizon_transport(surface, plan(azimuths, samples_per_octave)), light);
     double squares = 0;
     for (std::size_t i = 0; i < kTried; ++i) squares += std::pow(gathered[tried_texel(i)] - exact[i], 2);
     INFO(shape << ", " << to_string(boundary) << ", " << azimuths << " azimuths");
@@ -372,8 +375,8 @@ TEST_CASE("bounces do not hang on single rows of the map", "[transport][horizon]
 TEST_CASE("numbers of azimuths outside their range are refused", "[transport][horizon]") {
   const Surface surface = build_surface(make_map(4, 4, Boundary::tile, [](int, int) { return 0; }));
   for (const int azimuths : {-2, 0, 1, 7, 65538}) {
-    const WalkOptions good{.azimuths = 8, .fineness = 8};
-    const WalkOptions bad{.azimuths = azimuths, .fineness = 8};
+    const WalkOptions good{.azimuths = 8, .samples_per_octave = 8};
+    const WalkOptions bad{.azimuths = azimuths, .samples_per_octave = 8};
     const HorizonPlan bad_sky{.sky = {.walk = bad}, .gather = {.walk = good}};
     const HorizonPlan bad_gather{.sky = {.walk = good}, .gather = {.walk = bad}};
     const HorizonPlan bad_bounce{.sky = {.walk = good},

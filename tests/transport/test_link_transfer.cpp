@@ -13,13 +13,14 @@ namespace {
 
 constexpr int kAzimuths = 32;
 
-/// A with a reach, by exact walks, which share no code with links.
-Map sky_within(const Surface& surface, const Reach& reach) {
+/// A with a maximum distance, by exact walks, which share no code with links.
+Map sky_within(const Surface& surface, const MaximumDistance& maximum_distance) {
   const ExactWalker walker(surface, kAzimuths);
   Map sky(surface.width(), surface.height());
   for (int row = 0; row < surface.height(); ++row) {
     for (int column = 0; column < surface.width(); ++column)
-      sky(row, column) = static_cast<float>(find_exact_sky(walker, row, column, reach).sky_view_factor);
+      sky(row, column) =
+          static_cast<float>(find_exact_sky(walker, row, column, maximum_distance).sky_view_factor);
   }
   return sky;
 }
@@ -38,11 +39,12 @@ TEST_CASE("obscurance from links is the sky within a reach, and W is equation 12
   const Falloff falloff = GENERATE(Falloff::linear, Falloff::root, Falloff::exponential);
   const Surface surface = build_surface(make_synth_map("fbm", 40, boundary, 0.3));
   const FormFactors links = build_exact_form_factors(surface, kAzimuths, {});
-  const Reach reach{.distance = 0.3, .falloff = falloff};
-  const AmbientTransfer found = find_ambient_transfer(surface, links, reach, {.constant = {0.7, 0.2}});
+  const MaximumDistance maximum_distance{.distance = 0.3, .falloff = falloff};
+  const AmbientTransfer found =
+      find_ambient_transfer(surface, links, maximum_distance, {.constant = {0.7, 0.2}});
   // discretisation: a link stands for all of a stretch, and the receiver's own facet, which walks take to be
   // hit at once, is seen half a texel away
-  CHECK(rms_apart(found.obscurance, sky_within(surface, reach)) < 0.03);
+  CHECK(rms_apart(found.obscurance, sky_within(surface, maximum_distance)) < 0.03);
   REQUIRE(found.transfer.size() == 2);
   double darkest = 1;
   for (std::size_t i = 0; i < found.obscurance.size(); ++i) {
@@ -58,15 +60,15 @@ TEST_CASE("obscurance from links is the sky within a reach, and W is equation 12
 }
 
 TEST_CASE("obscurance from links converges to that of exact profiles", "[transport][transfer]") {
-  const Reach reach{.distance = 0.3, .falloff = Falloff::root};
+  const MaximumDistance maximum_distance{.distance = 0.3, .falloff = Falloff::root};
   const auto error_at = [&](int side) {
     const Surface surface = build_surface(make_map(side, side, Boundary::tile, [side](int row, int column) {
       const double turn = 4 * std::acos(-1) / side;
       return 0.1 * std::sin(turn * column) * std::cos(turn * row);
     }));
     const FormFactors links = build_exact_form_factors(surface, kAzimuths, {});
-    return rms_apart(find_ambient_transfer(surface, links, reach, {.constant = {0.5}}).obscurance,
-                     sky_within(surface, reach));
+    return rms_apart(find_ambient_transfer(surface, links, maximum_distance, {.constant = {0.5}}).obscurance,
+                     sky_within(surface, maximum_distance));
   };
   const double coarse = error_at(24);
   const double fine = error_at(48);
@@ -78,16 +80,18 @@ TEST_CASE("obscurance from links converges to that of exact profiles", "[transpo
 TEST_CASE("an albedo given as a map is read where it is seen", "[transport][transfer]") {
   const Surface surface = build_surface(make_synth_map("fbm", 32, Boundary::tile, 0.3));
   const FormFactors links = build_exact_form_factors(surface, kAzimuths, {});
-  const Reach reach{.distance = 0.4, .falloff = Falloff::root};
-  const AmbientTransfer constant = find_ambient_transfer(surface, links, reach, {.constant = {0.5}});
+  const MaximumDistance maximum_distance{.distance = 0.4, .falloff = Falloff::root};
+  const AmbientTransfer constant =
+      find_ambient_transfer(surface, links, maximum_distance, {.constant = {0.5}});
   TexelVector same(surface.map.height.size(), 0.5);
-  const AmbientTransfer mapped = find_ambient_transfer(surface, links, reach, {.varying = {same}});
+  const AmbientTransfer mapped = find_ambient_transfer(surface, links, maximum_distance, {.varying = {same}});
   CHECK(rms_apart(constant.transfer[0], mapped.transfer[0]) < 1e-6);
   // White on the left, black on the right: between, what is seen of either.
   TexelVector halves(same.size());
   for (std::size_t i = 0; i < halves.size(); ++i) halves[i] = i % 32 < 16 ? 1 : 0;
-  const AmbientTransfer split = find_ambient_transfer(surface, links, reach, {.varying = {halves}});
-  const AmbientTransfer black = find_ambient_transfer(surface, links, reach, {.constant = {0}});
+  const AmbientTransfer split =
+      find_ambient_transfer(surface, links, maximum_distance, {.varying = {halves}});
+  const AmbientTransfer black = find_ambient_transfer(surface, links, maximum_distance, {.constant = {0}});
   for (int row = 0; row < 32; ++row) {
     for (int column = 0; column < 32; ++column) {
       REQUIRE(split.transfer[0](row, column) >= black.transfer[0](row, column) - 1e-6F);

@@ -25,24 +25,27 @@ struct KnownGround {
   FormFactors exact;
   MapGather gather;
 
-  explicit KnownGround(Heightmap map, int azimuths = 96, int fineness = 48)
+  explicit KnownGround(Heightmap map, int azimuths = 96, int samples_per_octave = 48)
       : surface(build_surface(std::move(map))),
         exact(build_exact_form_factors(surface, azimuths, {})),
-        gather(surface, build_height_mips(surface), {.fineness = fineness, .peak_share = 0.3F}) {}
+        gather(surface, build_height_pyramid(surface),
+               {.samples_per_octave = samples_per_octave, .peak_share = 0.3F}) {}
   KnownGround(const KnownGround&) = delete;  // the gather refers to the surface
   KnownGround& operator=(const KnownGround&) = delete;
 
-  ProgressiveSolution solve(const std::vector<LightSystem>& systems,
+  ProgressiveSolution solve(const std::vector<IrradianceSystem>& systems,
                             const ProgressiveGoal& goal = kFine) const {
     return gather_progressively(gather, exact.sky_view_factor, systems, goal, {});
   }
 
-  TexelVector total(const LightSystem& system) const { return solve(std::vector{system}).irradiance[0]; }
+  TexelVector total(const IrradianceSystem& system) const { return solve(std::vector{system}).irradiance[0]; }
 
   /// On stored exact form factors.
-  TexelVector exact_total(const LightSystem& system) const { return exact.solve({system}, {}).irradiance[0]; }
+  TexelVector exact_total(const IrradianceSystem& system) const {
+    return exact.solve({system}, {}).irradiance[0];
+  }
 
-  double error_of(const LightSystem& system) const {
+  double error_of(const IrradianceSystem& system) const {
     return rms(as_eigen(total(system)) - as_eigen(exact_total(system)));
   }
 };
@@ -78,8 +81,9 @@ TexelVector patchy_albedo(const Surface& surface) {
 }
 
 /// A by a cheap walk.
-Map make_walked_sky(const Surface& surface, const HeightMips& mips) {
-  return walk_horizon_sky(surface, mips, {.walk = {.azimuths = 16, .fineness = 8, .peak_share = 0.3F}})
+Map make_walked_sky(const Surface& surface, const HeightPyramid& pyramid) {
+  return walk_horizon_sky(surface, pyramid,
+                          {.walk = {.azimuths = 16, .samples_per_octave = 8, .peak_share = 0.3F}})
       .sky_view_factor;
 }
 
@@ -131,7 +135,7 @@ TEST_CASE("at albedo 1 the sky's total is 1 everywhere", "[transport][gather]") 
     CHECK((as_eigen(total).array() - 1).abs().maxCoeff() < 1e-6);
 }
 
-TEST_CASE("at albedo 0 totals are the direct light", "[transport][gather]") {
+TEST_CASE("at albedo 0 totals are the direct irradiance", "[transport][gather]") {
   const KnownGround ground(make_known_ground("bricks, a third"));
   const TexelVector light = half_light(ground.surface);
   const TexelVector black(light.size(), 0);
@@ -144,7 +148,7 @@ TEST_CASE("at albedo 0 totals are the direct light", "[transport][gather]") {
   CHECK(same(ground.total({.direct = &black, .albedo = 0.8}), black));
 }
 
-TEST_CASE("a flat map's totals are its direct light, whatever its albedo", "[transport][gather]") {
+TEST_CASE("a flat map's totals are its direct irradiance, whatever its albedo", "[transport][gather]") {
   const Boundary boundary = GENERATE(Boundary::tile, Boundary::open);
   const KnownGround ground(make_map(20, 13, boundary, [](int, int) { return 0.3; }), 16, 8);
   const TexelVector light = half_light(ground.surface);
@@ -162,7 +166,7 @@ TEST_CASE("each total is the same, to the last bit, whatever others are solved b
   const TexelVector patchy = patchy_albedo(ground.surface);
   const ProgressiveGoal goal{.error = 0.004, .last_azimuths = 8};
   // More than one gather reads at once, and of different numbers of gathers.
-  const std::vector<LightSystem> systems{
+  const std::vector<IrradianceSystem> systems{
       {.albedo = 0.95}, {.albedo = 0.2},      {.albedo = 0.8}, {.direct = &light, .albedo = 0.8},
       {.albedo = 0},    {.varying = &patchy}, {.albedo = 0.8}, {.direct = &light, .varying = &patchy},
       {.albedo = 0.6}};
@@ -176,22 +180,22 @@ TEST_CASE("each total is the same, to the last bit, whatever others are solved b
     most = std::max(most, alone.gathers);
   }
   CHECK(together.gathers == most);
-  std::vector<LightSystem> reversed(systems.rbegin(), systems.rend());
+  std::vector<IrradianceSystem> reversed(systems.rbegin(), systems.rend());
   std::vector<TexelVector> backwards = ground.solve(reversed, goal).irradiance;
   std::reverse(backwards.begin(), backwards.end());
   CHECK(backwards == together.irradiance);
-  CHECK(ground.solve(std::vector<LightSystem>{}, goal).irradiance.empty());
+  CHECK(ground.solve(std::vector<IrradianceSystem>{}, goal).irradiance.empty());
 }
 
 TEST_CASE("totals do not depend on the number of threads", "[transport][gather]") {
   const Surface surface = build_surface(make_rough_map(150, 131, Boundary::open, 0.2, 0.1, 6));
-  const HeightMips mips = build_height_mips(surface);
-  const Map sky = make_walked_sky(surface, mips);
+  const HeightPyramid pyramid = build_height_pyramid(surface);
+  const Map sky = make_walked_sky(surface, pyramid);
   const TexelVector light = half_light(surface);
-  const std::vector<LightSystem> systems{{.albedo = 0.8}, {.direct = &light, .albedo = 0.5}};
+  const std::vector<IrradianceSystem> systems{{.albedo = 0.8}, {.direct = &light, .albedo = 0.5}};
   const auto solve = [&](int threads) {
     const ThreadScope scope(threads);
-    const MapGather gather(surface, mips, {.fineness = 8, .peak_share = 0.3F});
+    const MapGather gather(surface, pyramid, {.samples_per_octave = 8, .peak_share = 0.3F});
     return gather_progressively(gather, sky, systems, {.error = 0.002, .last_azimuths = 8}, {});
   };
   const ProgressiveSolution one = solve(1);
@@ -232,7 +236,7 @@ TEST_CASE("where samples are missing totals are 0, and the rest is as exact", "[
   }
 }
 
-TEST_CASE("totals of hard little maps are finite, no darker than the direct light, and 1 at most",
+TEST_CASE("totals of hard little maps are finite, no darker than the direct irradiance, and 1 at most",
           "[transport][gather]") {
   const Boundary boundary = GENERATE(Boundary::tile, Boundary::open);
   const double missing = GENERATE(0.0, 0.4);
@@ -240,10 +244,10 @@ TEST_CASE("totals of hard little maps are finite, no darker than the direct ligh
       GENERATE(std::pair{37, 5}, std::pair{1, 11}, std::pair{17, 1}, std::pair{3, 2}, std::pair{1, 1});
   const double relief = GENERATE(0.02, 0.5, 20.0);
   const Surface surface = build_surface(make_rough_map(width, height, boundary, relief, missing, 2));
-  const HeightMips mips = build_height_mips(surface);
-  const Map sky = make_walked_sky(surface, mips);
-  const MapGather gather(surface, mips, {.fineness = 8, .peak_share = 0.3F});
-  const std::vector<LightSystem> systems{{.albedo = 0.8}, {.albedo = 1 - 1e-7}};
+  const HeightPyramid pyramid = build_height_pyramid(surface);
+  const Map sky = make_walked_sky(surface, pyramid);
+  const MapGather gather(surface, pyramid, {.samples_per_octave = 8, .peak_share = 0.3F});
+  const std::vector<IrradianceSystem> systems{{.albedo = 0.8}, {.albedo = 1 - 1e-7}};
   const ProgressiveSolution solution =
       gather_progressively(gather, sky, systems, {.error = 0.002, .last_azimuths = 4}, {});
   for (const TexelVector& total : solution.irradiance) {

@@ -58,7 +58,7 @@ TEST_CASE("a reach does not let light up from below the horizontal", "[visibilit
   const Falloff falloff = GENERATE(Falloff::none, Falloff::linear);
   const Visibility visibility = GENERATE(Visibility::exact_slices, Visibility::horizon_walks);
   Request request = sky_of_ground(visibility);
-  request.wanted.reach = Reach{.distance = 0.2, .falloff = falloff};
+  request.wanted.maximum_distance = MaximumDistance{.distance = 0.2, .falloff = falloff};
   const Results results = solve(tilted_plane(24, 0.7), request);
   CHECK(largest_error(results.sky_view_factor, (1 + std::cos(0.7)) / 2) < 2e-3);  // discretisation
 }
@@ -69,7 +69,7 @@ TEST_CASE("the ground's sky walk and its scalar twin agree on every instruction 
   Heightmap map = make_rough_map(70, 53, Boundary::open, 0.3, holes, 4);
   map.curvature = 0.2;  // of some heights: what is level tilts by up to 0.15
   const Surface surface = build_surface(std::move(map));
-  const WalkOptions options{.azimuths = 6, .fineness = 16, .peak_share = 0.3F};
+  const WalkOptions options{.azimuths = 6, .samples_per_octave = 16, .peak_share = 0.3F};
   const auto walk_with = [&](WalkSky walk) {
     std::vector<float> sums;
     for_tiles(surface, options, [&](const WalkTile& tile) {

@@ -6,7 +6,7 @@
 
 #include "test_maps.h"
 #include "visibility/field_pyramid.h"
-#include "visibility/height_mips.h"
+#include "visibility/height_pyramid.h"
 
 namespace heightlight {
 namespace {

@@ -46,7 +46,7 @@ std::optional<Map> read_reference(const std::string& name) {
 enum class SampledWay { steps, texel };
 
 double sampled_slope(const Surface& surface, int row, int column, double azimuth, SampledWay way,
-                     double step = 1, double reach = 1e9) {
+                     double step = 1, double maximum_distance = 1e9) {
   const Image<float>& h = surface.map.height;
   double steepest = 0;
   for (int k = 1;; ++k) {
@@ -56,7 +56,7 @@ double sampled_slope(const Surface& surface, int row, int column, double azimuth
     const int j = column + right;
     if (i < 0 || j < 0 || i >= h.height || j >= h.width) return steepest;
     const double distance = way == SampledWay::steps ? k * step : std::hypot(right, up);
-    if (distance >= reach) return steepest;
+    if (distance >= maximum_distance) return steepest;
     const double rise = double{h(i, j)} - double{h(row, column)};
     steepest = std::max(steepest, rise / (distance * surface.map.spacing.x));
   }
@@ -249,7 +249,7 @@ TEST_CASE("Toulouse's mean cosine of horizons within 50 texels matches rastertoo
   CHECK(exact.mean_absolute <= 0.004);  // measured: 0.0037, what nearest texels cost among walls
   Request request;
   request.wanted.definitions = {SkyDefinition::mean_cos_h};
-  request.wanted.reach = Reach{.distance = kReach * 0.5};
+  request.wanted.maximum_distance = MaximumDistance{.distance = kReach * 0.5};
   request.accuracy.error = 0.001;
   request.accuracy.azimuths = kAzimuths;
   const Results walked = solve(surface, request);

@@ -145,7 +145,7 @@ TEST_CASE("sums of horizons and their scalar twins agree on every instruction se
   Heightmap map = make_rough_map(70, 53, Boundary::open, 0.3, holes, 4);
   map.curvature = 0.2;
   const Surface surface = build_surface(std::move(map));
-  const WalkOptions options{.azimuths = 6, .fineness = 16, .peak_share = 0.3F};
+  const WalkOptions options{.azimuths = 6, .samples_per_octave = 16, .peak_share = 0.3F};
   const auto sums_by = [&](auto&& add, auto&& add_within) {
     std::vector<float> values;
     for_tiles(surface, options, [&](const WalkTile& tile) {
@@ -154,7 +154,7 @@ TEST_CASE("sums of horizons and their scalar twins agree on every instruction se
       for (int k = 0; k < options.azimuths; ++k) {
         AzimuthTable azimuth = make_azimuth_table(surface, options, azimuth_rad(options, k));
         if (within) {
-          add_within(tile, azimuth, make_reach_table(azimuth, {.distance = 0.2}), *sums);
+          add_within(tile, azimuth, make_distance_table(azimuth, {.distance = 0.2}), *sums);
         } else {
           look_far_scalar(tile, azimuth, *far);
           add(tile, azimuth, *far, *sums);

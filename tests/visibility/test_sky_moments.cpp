@@ -66,7 +66,7 @@ TEST_CASE("moments: the sky walk's lanes and its scalar twin agree on every inst
           "[visibility][walk][moments]") {
   const std::string kind = GENERATE("smooth", "rough", "tall", "holes", "oblong", "texel");
   const Boundary boundary = GENERATE(Boundary::tile, Boundary::open);
-  const WalkOptions options{.azimuths = 6, .fineness = 8, .peak_share = 0.3F};
+  const WalkOptions options{.azimuths = 6, .samples_per_octave = 8, .peak_share = 0.3F};
   const Surface surface = test_surface(kind, boundary);
   const auto run = [&](LookFar look, WalkSky walk) {
     return sums_of(surface, options, true,
@@ -92,12 +92,12 @@ TEST_CASE("reach: the sky walk's lanes and its scalar twin agree on every instru
   const double distance = GENERATE(0.005, 0.06, 0.4, 2.0);
   const Falloff falloff = GENERATE(Falloff::none, Falloff::linear, Falloff::root, Falloff::exponential);
   const bool keep_slope = falloff == Falloff::none && GENERATE(false, true);
-  const WalkOptions options{.azimuths = 6, .fineness = 8, .peak_share = 0.3F};
+  const WalkOptions options{.azimuths = 6, .samples_per_octave = 8, .peak_share = 0.3F};
   const Surface surface = test_surface(kind, boundary);
   const auto run = [&](auto walk) {
     return sums_of(
         surface, options, keep_slope, [&](const WalkTile& tile, const AzimuthTable& azimuth, SkySums& sums) {
-          walk(tile, azimuth, make_reach_table(azimuth, {.distance = distance, .falloff = falloff}), sums);
+          walk(tile, azimuth, make_distance_table(azimuth, {.distance = distance, .falloff = falloff}), sums);
         });
   };
   const std::vector<float> twin = run(walk_sky_within_scalar);
@@ -144,11 +144,12 @@ TEST_CASE("an open plane's moments are those of its hemisphere", "[visibility][m
   map.spacing = {1, 1};
   const Surface surface = build_surface(std::move(map));
   const SkyTask task{.wanted = {.first = true, .second = true},
-                     .reach = GENERATE(std::optional<Reach>{},
-                                       std::optional<Reach>{{.distance = 5, .falloff = Falloff::root}})};
+                     .maximum_distance =
+                         GENERATE(std::optional<MaximumDistance>{},
+                                  std::optional<MaximumDistance>{{.distance = 5, .falloff = Falloff::root}})};
   const HorizonSky sky =
-      walk_horizon_sky(surface, build_height_mips(surface),
-                       {.walk = {.azimuths = 64, .fineness = 32, .peak_share = 0.3F}}, task);
+      walk_horizon_sky(surface, build_height_pyramid(surface),
+                       {.walk = {.azimuths = 64, .samples_per_octave = 32, .peak_share = 0.3F}}, task);
   const Eigen::Vector3f n = as_eigen(surface.normal(16, 20));
   const Eigen::Vector3f first = as_eigen(sky.moments.first(16, 20));
   CHECK((first - 2.0F / 3 * n).norm() < 2e-6);  // rounding of 64 azimuths
@@ -167,14 +168,14 @@ struct SkyError {
 
 /// RMS against exact profiles along as many azimuths, over every `step`-th row.
 SkyError error_of(const HorizonSky& sky, const Surface& surface, int azimuths,
-                  const std::optional<Reach>& reach, int step) {
+                  const std::optional<MaximumDistance>& maximum_distance, int step) {
   const ExactWalker walker(surface, azimuths);
   std::vector<SkyError> rows(static_cast<std::size_t>((surface.height() + step - 1) / step));
   parallel_for(static_cast<std::int64_t>(rows.size()), [&](std::int64_t i) {
     const int row = static_cast<int>(i) * step;
     SkyError& error = rows[static_cast<std::size_t>(i)];
     for (int column = 0; column < surface.width(); ++column) {
-      const ExactSky exact = find_exact_sky(walker, row, column, reach);
+      const ExactSky exact = find_exact_sky(walker, row, column, maximum_distance);
       const auto sky_share = static_cast<double>(sky.sky_view_factor(row, column));
       error.sky += std::pow(sky_share - exact.sky_view_factor, 2);
       error.ambient +=
@@ -202,14 +203,14 @@ TEST_CASE("moments converge to those of exact profiles with the walk's fineness"
   const std::string shape = GENERATE("brick", "fbm");
   const Surface surface = build_surface(make_synth_map(shape.c_str(), 96, Boundary::tile, 0.15));
   SkyError before{1, 1, 1, 1};
-  for (const int fineness : {8, 16, 32}) {
-    const HorizonSky sky =
-        walk_horizon_sky(surface, build_height_mips(surface),
-                         {.walk = {.azimuths = 12, .fineness = fineness, .peak_share = 0.3F}},
-                         {.wanted = {.first = true, .second = true}});
+  for (const int samples_per_octave : {8, 16, 32}) {
+    const HorizonSky sky = walk_horizon_sky(
+        surface, build_height_pyramid(surface),
+        {.walk = {.azimuths = 12, .samples_per_octave = samples_per_octave, .peak_share = 0.3F}},
+        {.wanted = {.first = true, .second = true}});
     const SkyError error = error_of(sky, surface, 12, {}, 8);
-    INFO(shape << ", fineness " << fineness << ": A " << error.sky << ", first " << error.first << ", second "
-               << error.second);
+    INFO(shape << ", fineness " << samples_per_octave << ": A " << error.sky << ", first " << error.first
+               << ", second " << error.second);
     // discretisation: samples twice as dense, about first order
     CHECK(error.first < before.first / 1.4);
     CHECK(error.second < before.second / 1.4);
@@ -225,12 +226,13 @@ TEST_CASE("a limited reach converges to that of exact profiles", "[visibility][r
   const Falloff falloff = GENERATE(Falloff::none, Falloff::linear, Falloff::root, Falloff::exponential);
   const double distance = GENERATE(0.03, 0.3);  // 3 and 29 texels
   const Surface surface = build_surface(make_synth_map(shape.c_str(), 96, boundary, 0.15));
-  const std::optional<Reach> reach = Reach{.distance = distance, .falloff = falloff};
-  const SkyTask task{.wanted = {.first = true, .second = true}, .reach = reach};
+  const std::optional<MaximumDistance> maximum_distance =
+      MaximumDistance{.distance = distance, .falloff = falloff};
+  const SkyTask task{.wanted = {.first = true, .second = true}, .maximum_distance = maximum_distance};
   const HorizonSky sky =
-      walk_horizon_sky(surface, build_height_mips(surface),
-                       {.walk = {.azimuths = 16, .fineness = 64, .peak_share = 0.3F}}, task);
-  const SkyError error = error_of(sky, surface, 16, reach, 8);
+      walk_horizon_sky(surface, build_height_pyramid(surface),
+                       {.walk = {.azimuths = 16, .samples_per_octave = 64, .peak_share = 0.3F}}, task);
+  const SkyError error = error_of(sky, surface, 16, maximum_distance, 8);
   INFO(shape << ", " << to_string(boundary) << ", reach " << distance << ", falloff "
              << static_cast<int>(falloff) << ": A " << error.sky << ", alpha " << error.ambient << ", first "
              << error.first << ", second " << error.second);
@@ -245,11 +247,12 @@ TEST_CASE("a limited reach converges to that of exact profiles", "[visibility][r
 
 TEST_CASE("a reach beyond everything is no reach", "[visibility][reach]") {
   const Surface surface = build_surface(make_synth_map("brick", 64, Boundary::open, 0.2));
-  const HeightMips mips = build_height_mips(surface);
-  const SkyPlan plan{.walk = {.azimuths = 16, .fineness = 32, .peak_share = 0.3F}};
-  const HorizonSky whole = walk_horizon_sky(surface, mips, plan);
+  const HeightPyramid pyramid = build_height_pyramid(surface);
+  const SkyPlan plan{.walk = {.azimuths = 16, .samples_per_octave = 32, .peak_share = 0.3F}};
+  const HorizonSky whole = walk_horizon_sky(surface, pyramid, plan);
   const HorizonSky far =
-      walk_horizon_sky(surface, mips, plan, {.reach = Reach{.distance = 50, .falloff = Falloff::none}});
+      walk_horizon_sky(surface, pyramid, plan,
+                       {.maximum_distance = MaximumDistance{.distance = 50, .falloff = Falloff::none}});
   double worst = 0;
   for (std::size_t i = 0; i < whole.sky_view_factor.size(); ++i) {
     worst = std::max(worst, std::fabs(static_cast<double>(whole.sky_view_factor.values[i]) -
@@ -260,31 +263,33 @@ TEST_CASE("a reach beyond everything is no reach", "[visibility][reach]") {
 
 TEST_CASE("falloffs rise in order: none, linear, root, and with the reach all fall", "[visibility][reach]") {
   const Surface surface = build_surface(make_synth_map("cobbles", 64, Boundary::tile, 0.2));
-  const HeightMips mips = build_height_mips(surface);
-  const auto mean = [&](const std::optional<Reach>& reach) {
+  const HeightPyramid pyramid = build_height_pyramid(surface);
+  const auto mean = [&](const std::optional<MaximumDistance>& maximum_distance) {
     const HorizonSky sky = walk_horizon_sky(
-        surface, mips, {.walk = {.azimuths = 16, .fineness = 16, .peak_share = 0.3F}}, {.reach = reach});
+        surface, pyramid, {.walk = {.azimuths = 16, .samples_per_octave = 16, .peak_share = 0.3F}},
+        {.maximum_distance = maximum_distance});
     double sum = 0;
     for (const float value : sky.sky_view_factor.values) sum += static_cast<double>(value);
     return sum / static_cast<double>(sky.sky_view_factor.size());
   };
-  CHECK(mean({}) < mean(Reach{.distance = 0.2, .falloff = Falloff::none}));
-  CHECK(mean(Reach{.distance = 0.2, .falloff = Falloff::none}) <
-        mean(Reach{.distance = 0.2, .falloff = Falloff::linear}));
-  CHECK(mean(Reach{.distance = 0.2, .falloff = Falloff::linear}) <
-        mean(Reach{.distance = 0.2, .falloff = Falloff::root}));
-  CHECK(mean(Reach{.distance = 0.2, .falloff = Falloff::root}) <
-        mean(Reach{.distance = 0.02, .falloff = Falloff::root}));
+  CHECK(mean({}) < mean(MaximumDistance{.distance = 0.2, .falloff = Falloff::none}));
+  CHECK(mean(MaximumDistance{.distance = 0.2, .falloff = Falloff::none}) <
+        mean(MaximumDistance{.distance = 0.2, .falloff = Falloff::linear}));
+  CHECK(mean(MaximumDistance{.distance = 0.2, .falloff = Falloff::linear}) <
+        mean(MaximumDistance{.distance = 0.2, .falloff = Falloff::root}));
+  CHECK(mean(MaximumDistance{.distance = 0.2, .falloff = Falloff::root}) <
+        mean(MaximumDistance{.distance = 0.02, .falloff = Falloff::root}));
   for (const double bad : {0.0, -1.0, std::nan(""), HUGE_VAL})
-    CHECK_THROWS_AS(check_reach({.distance = bad}), UsageError);
+    CHECK_THROWS_AS(check_maximum_distance({.distance = bad}), UsageError);
 }
 
 TEST_CASE("horizons stand where exact profiles have them", "[visibility][horizons]") {
   const Boundary boundary = GENERATE(Boundary::tile, Boundary::open);
   const Surface surface = build_surface(make_synth_map("fbm", 96, boundary, 0.3));
   const std::vector<double> azimuths{0, 1.0, std::acos(-1) / 2, std::acos(-1), -2.0};
-  const std::vector<Map> horizons = walk_horizons(
-      surface, build_height_mips(surface), {.azimuths = 2, .fineness = 64, .peak_share = 0.3F}, azimuths, {});
+  const std::vector<Map> horizons =
+      walk_horizons(surface, build_height_pyramid(surface),
+                    {.azimuths = 2, .samples_per_octave = 64, .peak_share = 0.3F}, azimuths, {});
   const ExactWalker walker(surface, 4);
   double squares = 0;
   int count = 0;

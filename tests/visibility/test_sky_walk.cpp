@@ -13,7 +13,7 @@ namespace heightlight {
 namespace {
 
 HorizonSky walk(const Surface& surface, const WalkOptions& options) {
-  return walk_horizon_sky(surface, build_height_mips(surface), {.walk = options});
+  return walk_horizon_sky(surface, build_height_pyramid(surface), {.walk = options});
 }
 
 struct Terrain {
@@ -70,14 +70,14 @@ TEST_CASE("the sky walk's lanes and its scalar twin agree on every instruction s
       Terrain{"a column", true, 1, 23, 0.1, 0, 1}, Terrain{"a row", true, 71, 1, 0.1, 0, 1},
       Terrain{"tiny", true, 5, 3, 0.3, 0, 0.4});
   const Boundary boundary = GENERATE(Boundary::tile, Boundary::open);
-  const int fineness = GENERATE(8, 32);
+  const int samples_per_octave = GENERATE(8, 32);
   const Surface surface = make_surface(terrain, boundary);
-  const WalkOptions options{.azimuths = 6, .fineness = fineness, .peak_share = 0.3F};
+  const WalkOptions options{.azimuths = 6, .samples_per_octave = samples_per_octave, .peak_share = 0.3F};
   const WalkedSky twin = walk_sky_with(look_far_scalar, walk_sky_scalar, surface, options);
   for (const std::int64_t target : instruction_sets()) {
     const InstructionSet use(target);
     const WalkedSky lanes = walk_sky_with(look_far, walk_sky, surface, options);
-    INFO(terrain.name << ", " << to_string(boundary) << ", fineness " << fineness << ", "
+    INFO(terrain.name << ", " << to_string(boundary) << ", fineness " << samples_per_octave << ", "
                       << hwy::TargetName(target));
     const LineDifference lines = difference(lanes.views, twin.views);
     CHECK(lines.heights == 0);
@@ -110,9 +110,9 @@ TEST_CASE("with its fineness the walk converges to the exact one along the same 
   });
   double sky_before = 1;
   double ambient_before = 1;
-  for (const int fineness : {8, 16, 32, 64}) {
+  for (const int samples_per_octave : {8, 16, 32, 64}) {
     const HorizonSky walked =
-        walk(surface, {.azimuths = kAzimuths, .fineness = fineness, .peak_share = 0.3F});
+        walk(surface, {.azimuths = kAzimuths, .samples_per_octave = samples_per_octave, .peak_share = 0.3F});
     double sky = 0;
     double ambient = 0;
     for (std::size_t i = 0; i < exact.size(); ++i) {
@@ -123,8 +123,8 @@ TEST_CASE("with its fineness the walk converges to the exact one along the same 
     }
     sky = std::sqrt(sky / static_cast<double>(exact.size()));
     ambient = std::sqrt(ambient / static_cast<double>(exact.size()));
-    INFO(shape << ", " << to_string(boundary) << ", fineness " << fineness << ": A " << sky << ", alpha "
-               << ambient);
+    INFO(shape << ", " << to_string(boundary) << ", fineness " << samples_per_octave << ": A " << sky
+               << ", alpha " << ambient);
     // discretisation: samples twice as dense, about first order (measured: a factor of 1.6 to 4.3)
     CHECK(sky < sky_before / 1.5);
     CHECK(ambient < ambient_before / 1.5);
@@ -137,10 +137,10 @@ TEST_CASE("with its fineness the walk converges to the exact one along the same 
 
 TEST_CASE("the walk finds a flat map open to the last bit", "[visibility][walk]") {
   const Boundary boundary = GENERATE(Boundary::tile, Boundary::open);
-  const int fineness = GENERATE(8, 32);
+  const int samples_per_octave = GENERATE(8, 32);
   const double level = GENERATE(0.0, 0.7, 1e-20, 4321.987);
   const HorizonSky sky = walk(build_surface(make_map(70, 33, boundary, [&](int, int) { return level; })),
-                              {.azimuths = 6, .fineness = fineness, .peak_share = 0.3F});
+                              {.azimuths = 6, .samples_per_octave = samples_per_octave, .peak_share = 0.3F});
   for (std::size_t i = 0; i < sky.sky_view_factor.size(); ++i) {
     REQUIRE(sky.sky_view_factor.values[i] == 1);
     REQUIRE(sky.ambient_occlusion.values[i] == 1);
@@ -171,17 +171,17 @@ TEST_CASE("the walk finds an open tilted plane open, also below the horizontal",
   const double steepness = GENERATE(0.3, 2.5);  // below and above steep_slope
   // As far as samples lie on the surface itself: rounding, 10⁻⁷ in slopes and sums.
   const Shortfall near =
-      plane_shortfall(steepness, 35, 37, {.azimuths = 32, .fineness = 48, .peak_share = 0.3F});
+      plane_shortfall(steepness, 35, 37, {.azimuths = 32, .samples_per_octave = 48, .peak_share = 0.3F});
   CHECK(near.sky < 1e-6);
   CHECK(near.ambient < 3e-6);
   // Farther away, discretisation: the middle of a block lies up to half a block beside the line of sight in
   // both directions, ν blocks or more away, which is 0.75 steepness/ν in slope (and a little for the sample
   // that names the block); α goes with it, A with its square. Before that, lifted samples stand 0.2 × 1.5
   // steepness above the plane, 1.5 ν texels or more away: 0.2 steepness/ν.
-  for (const int fineness : {8, 16, 32}) {
-    const double in_slope = steepness / fineness;
-    const Shortfall far =
-        plane_shortfall(steepness, 150, 130, {.azimuths = 32, .fineness = fineness, .peak_share = 0.3F});
+  for (const int samples_per_octave : {8, 16, 32}) {
+    const double in_slope = steepness / samples_per_octave;
+    const Shortfall far = plane_shortfall(
+        steepness, 150, 130, {.azimuths = 32, .samples_per_octave = samples_per_octave, .peak_share = 0.3F});
     CHECK(far.ambient < in_slope);
     CHECK(far.sky < in_slope * in_slope);
   }
@@ -192,8 +192,8 @@ TEST_CASE("few azimuths find a tilted plane as open as many do", "[visibility][w
   const double steepness = GENERATE(0.3, 0.7, 1.0, 1.9);
   for (const int azimuths : {4, 6, 8, 12, 16, 64}) {
     CAPTURE(steepness, azimuths);
-    const Shortfall shortfall =
-        plane_shortfall(steepness, 35, 37, {.azimuths = azimuths, .fineness = 48, .peak_share = 0.3F});
+    const Shortfall shortfall = plane_shortfall(
+        steepness, 35, 37, {.azimuths = azimuths, .samples_per_octave = 48, .peak_share = 0.3F});
     CHECK(shortfall.sky < 1e-4);
   }
 }
@@ -214,7 +214,7 @@ TEST_CASE("small relief on a large offset is walked as without it", "[visibility
   });
   Heightmap raised = map;
   for (float& height : raised.height.values) height += 512;
-  const WalkOptions options{.azimuths = 12, .fineness = 8, .peak_share = 0.3F};
+  const WalkOptions options{.azimuths = 12, .samples_per_octave = 8, .peak_share = 0.3F};
   const HorizonSky low = walk(build_surface(map), options);
   const HorizonSky high = walk(build_surface(raised), options);
   // rounding: the means of blocks are stored to 512 ε = 3e-5, a thousandth of the relief; seen at least ν
@@ -236,7 +236,7 @@ TEST_CASE("scaling the world changes nothing: by a power of two not one bit", "[
   Heightmap scaled = map;
   for (float& height : scaled.height.values) height = static_cast<float>(double{height} * factor);
   scaled.spacing = {map.spacing.x * factor, map.spacing.y * factor};
-  const WalkOptions options{.azimuths = 12, .fineness = 8, .peak_share = 0.3F};
+  const WalkOptions options{.azimuths = 12, .samples_per_octave = 8, .peak_share = 0.3F};
   const HorizonSky here = walk(build_surface(map), options);
   const HorizonSky there = walk(build_surface(scaled), options);
   CHECK(largest_difference(here.sky_view_factor, there.sky_view_factor) <= tolerance);
@@ -247,7 +247,7 @@ TEST_CASE("missing samples are NaN in both maps, and the others have a share of 
   const Boundary boundary = GENERATE(Boundary::tile, Boundary::open);
   const double relief = GENERATE(0.1, 100.0);
   const Surface surface = build_surface(make_rough_map(67, 71, boundary, relief, 0.3, 2));
-  const HorizonSky sky = walk(surface, {.azimuths = 16, .fineness = 8, .peak_share = 0.3F});
+  const HorizonSky sky = walk(surface, {.azimuths = 16, .samples_per_octave = 8, .peak_share = 0.3F});
   for (std::size_t i = 0; i < sky.sky_view_factor.size(); ++i) {
     const bool missing = std::isnan(surface.map.height.values[i]);
     REQUIRE(std::isnan(sky.sky_view_factor.values[i]) == missing);
@@ -269,7 +269,7 @@ TEST_CASE("holes occlude nothing, and what they hold means nothing", "[visibilit
   };
   const Surface holes = build_surface(make_map(kSize, kSize, Boundary::open, height_at));
   const ExactWalker walker(holes, 64);
-  const HorizonSky sky = walk(holes, {.azimuths = 64, .fineness = 64, .peak_share = 0.3F});
+  const HorizonSky sky = walk(holes, {.azimuths = 64, .samples_per_octave = 64, .peak_share = 0.3F});
   SliceView view;
   for (int column = 0; column < kSize; column += 2) {
     walker.view(20, column, view);

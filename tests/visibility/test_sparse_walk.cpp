@@ -11,14 +11,14 @@ namespace heightlight {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr WalkOptions kWalk{.azimuths = 12, .fineness = 8, .peak_share = 0.3F};
+constexpr WalkOptions kWalk{.azimuths = 12, .samples_per_octave = 8, .peak_share = 0.3F};
 
 Surface make_ground(Boundary boundary) {
   return build_surface(make_rough_map(83, 70, boundary, 0.2, 0.05, 11));
 }
 
 HorizonSky walk(const Surface& surface, double full_from) {
-  return walk_horizon_sky(surface, build_height_mips(surface), {.walk = kWalk, .full_from = full_from},
+  return walk_horizon_sky(surface, build_height_pyramid(surface), {.walk = kWalk, .full_from = full_from},
                           {.wanted = {.first = true, .second = true}});
 }
 
@@ -45,8 +45,8 @@ std::vector<double> block_shares(const Surface& surface, const Map& sky) {
 TEST_CASE("blocks that do not walk keep their sums, and the others get what they always get",
           "[visibility][horizon]") {
   const Surface surface = make_ground(Boundary::tile);
-  const ReachTable reach = make_reach_table(make_azimuth_table(surface, kWalk, 0.7),
-                                            {.distance = 0.1, .falloff = Falloff::linear});
+  const DistanceTable maximum_distance = make_distance_table(make_azimuth_table(surface, kWalk, 0.7),
+                                                             {.distance = 0.1, .falloff = Falloff::linear});
   const AzimuthTable azimuth = make_azimuth_table(surface, kWalk, 0.7);
   for_tiles(surface, kWalk, [&](const WalkTile& tile) {
     const auto far = std::make_unique<FarView>();
@@ -72,8 +72,8 @@ TEST_CASE("blocks that do not walk keep their sums, and the others get what they
       };
       CHECK(is_same([&](SkySums& sums) { walk_sky(tile, azimuth, *far, sums); }));
       CHECK(is_same([&](SkySums& sums) { walk_sky_scalar(tile, azimuth, *far, sums); }));
-      CHECK(is_same([&](SkySums& sums) { walk_sky_within(tile, azimuth, reach, sums); }));
-      CHECK(is_same([&](SkySums& sums) { walk_sky_within_scalar(tile, azimuth, reach, sums); }));
+      CHECK(is_same([&](SkySums& sums) { walk_sky_within(tile, azimuth, maximum_distance, sums); }));
+      CHECK(is_same([&](SkySums& sums) { walk_sky_within_scalar(tile, azimuth, maximum_distance, sums); }));
     }
   });
 }

@@ -25,12 +25,12 @@ using WalkSky = void (*)(const WalkTile&, const AzimuthTable&, const FarView&, S
 /// Calls visit(tile) for each tile of the map, loaded for walks with these options.
 template <class Visit>
 void for_tiles(const Surface& surface, const WalkOptions& options, Visit&& visit) {
-  const HeightMips mips = build_height_mips(surface);
+  const HeightPyramid pyramid = build_height_pyramid(surface);
   const int rings = ring_count(surface, options);
   const TileGrid grid(surface.width(), surface.height());
   const auto tile = std::make_unique<WalkTile>();
   for (std::int64_t i = 0; i < grid.count(); ++i) {
-    tile->load(surface, mips, options, rings, grid.frame(i));
+    tile->load(surface, pyramid, options, rings, grid.frame(i));
     visit(*tile);
   }
 }

@@ -26,8 +26,8 @@ class HeldMap : public StoredMap {
 inline CoarseHeights coarse_heights(const StoredMap& heights, Boundary boundary, int level, int window) {
   const int side = 1 << level;
   const auto blocks = [side](int samples) { return (samples + side - 1) / side; };
-  HeightMips::Level whole{Map(blocks(heights.width()), blocks(heights.height())),
-                          Map(blocks(heights.width()), blocks(heights.height()))};
+  HeightPyramid::Level whole{Map(blocks(heights.width()), blocks(heights.height())),
+                             Map(blocks(heights.width()), blocks(heights.height()))};
   for (int row = 0; row < heights.height(); row += window) {
     for (int column = 0; column < heights.width(); column += window) {
       const WindowPlace place{heights.width(),
@@ -36,7 +36,7 @@ inline CoarseHeights coarse_heights(const StoredMap& heights, Boundary boundary,
                               column,
                               std::min(window, heights.width() - column),
                               std::min(window, heights.height() - row)};
-      const HeightMips::Level part = coarse_heights_of(heights, boundary, place, level);
+      const HeightPyramid::Level part = coarse_heights_of(heights, boundary, place, level);
       for (int i = 0; i < part.mean.height; ++i) {
         for (int j = 0; j < part.mean.width; ++j) {
           whole.mean(row / side + i, column / side + j) = part.mean(i, j);

@@ -61,11 +61,11 @@ Gathered gather(const MapGather& gather, const FieldPyramid& pyramid, const Map&
 }
 
 void check_windows(const Surface& surface, int window) {
-  const SkyPlan sky_plan{.walk = {.azimuths = 12, .fineness = 8}, .full_from = 0.2};
-  const WalkOptions gather_options{.fineness = 12};
-  const HeightMips mips = build_height_mips(surface);
-  const HorizonSky sky = walk_horizon_sky(surface, mips, sky_plan, {.wanted = {.first = true}});
-  const MapGather gather_whole(surface, mips, gather_options);
+  const SkyPlan sky_plan{.walk = {.azimuths = 12, .samples_per_octave = 8}, .full_from = 0.2};
+  const WalkOptions gather_options{.samples_per_octave = 12};
+  const HeightPyramid pyramid = build_height_pyramid(surface);
+  const HorizonSky sky = walk_horizon_sky(surface, pyramid, sky_plan, {.wanted = {.first = true}});
+  const MapGather gather_whole(surface, pyramid, gather_options);
   FieldPyramid field = gather_whole.make_pyramid();
   field.fill(sky.sky_view_factor);
   const Gathered whole = gather(gather_whole, field, sky.sky_view_factor);
@@ -76,10 +76,9 @@ void check_windows(const Surface& surface, int window) {
   const MapParts parts = parts_of(surface, heights, coarse);
   const HeldMap stored_sky(sky.sky_view_factor);
   const CoarseField coarse_sky = complete_field(level, coarse_field_of(sky.sky_view_factor, level));
-  const WindowReach of_sky = window_reach(parts, sky_plan.walk);
-  const WindowReach of_gather = window_reach(parts, gather_options);
-  const WindowReach reach{std::max(of_sky.margin, of_gather.margin),
-                          std::max(of_sky.levels, of_gather.levels)};
+  const WindowView of_sky = window_view(parts, sky_plan.walk);
+  const WindowView of_gather = window_view(parts, gather_options);
+  const WindowView view{std::max(of_sky.margin, of_gather.margin), std::max(of_sky.levels, of_gather.levels)};
   for (int row = 0; row < surface.height(); row += window) {
     for (int column = 0; column < surface.width(); column += window) {
       const WindowPlace place{surface.width(),
@@ -88,9 +87,9 @@ void check_windows(const Surface& surface, int window) {
                               column,
                               std::min(window, surface.width() - column),
                               std::min(window, surface.height() - row)};
-      const Surface part = window_surface(parts, place, reach);
+      const Surface part = window_surface(parts, place, view);
       CHECK(same_bits(surface.map.height, part.map.height, place));
-      const HeightMips none = build_height_mips(part);
+      const HeightPyramid none = build_height_pyramid(part);
       const HorizonSky found = walk_horizon_sky(part, none, sky_plan, {.wanted = {.first = true}});
       INFO("window at " << row << ", " << column << " of " << window << ", coarse from level " << level);
       CHECK(same_bits(sky.sky_view_factor, found.sky_view_factor, place));
@@ -128,8 +127,8 @@ TEST_CASE("A window of a curved map knows what is level there", "[window]") {
   const HeldMap heights(surface.map.height);
   const CoarseHeights coarse = coarse_heights(heights, Boundary::open, 2, 64);
   const MapParts parts = parts_of(surface, heights, coarse);
-  const WalkOptions walk{.azimuths = 8, .fineness = 8};
-  const Surface part = window_surface(parts, {256, 192, 64, 128, 128, 64}, window_reach(parts, walk));
+  const WalkOptions walk{.azimuths = 8, .samples_per_octave = 8};
+  const Surface part = window_surface(parts, {256, 192, 64, 128, 128, 64}, window_view(parts, walk));
   for (const int row : {0, 63}) {
     const Gradient here = level_gradient(part.map, row, 17);
     const Gradient there = level_gradient(surface.map, row + 64, 17 + 128);

@@ -35,13 +35,13 @@ Image<double> blur_along(const Image<double>& values, const std::vector<double>&
                          bool wraps) {
   Image<double> result(values.width, values.height);
   const int length = along_rows ? values.width : values.height;
-  const int reach = static_cast<int>(kernel.size()) - 1;
+  const int radius = static_cast<int>(kernel.size()) - 1;
   parallel_for(values.height, [&](std::int64_t i) {
     const int row = static_cast<int>(i);
     for (int column = 0; column < values.width; ++column) {
       const int at = along_rows ? column : row;
       double sum = 0;
-      for (int k = -reach; k <= reach; ++k) {
+      for (int k = -radius; k <= radius; ++k) {
         int near = at + k;
         if (wraps) near = ((near % length) + length) % length;
         if (near < 0 || near >= length) continue;

@@ -36,7 +36,7 @@ const std::vector<TerrainForm>& terrain_forms() {
   static const std::vector<TerrainForm> forms = {
       {.name = "none",
        .description = "E0",
-       .source = "the direct light, taken for the whole of it",
+       .source = "the direct irradiance, taken for the whole of it",
        .evaluate = [](Terrain in) { return in.direct; }},
       {.name = "average_albedo",
        .description = "E0 + rho_w C_t E0_w, C_t = (1 + cos S)/2 - V_d",

@@ -20,9 +20,9 @@ class LineSums {
     for (std::size_t i = 0; i + 1 < sums_.size(); ++i) sums_[i + 1] = sums_[i] + value(i);
   }
 
-  /// From `middle − reach` to `middle + reach`, both included.
-  double around(std::int64_t middle, std::int64_t reach) const {
-    return up_to(middle + reach + 1) - up_to(middle - reach);
+  /// From `middle − radius` to `middle + radius`, both included.
+  double around(std::int64_t middle, std::int64_t radius) const {
+    return up_to(middle + radius + 1) - up_to(middle - radius);
   }
 
  private:

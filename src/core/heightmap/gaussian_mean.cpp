@@ -15,9 +15,9 @@ constexpr double kCut = 4;  // standard deviations; what is beyond has 6e-5 of t
 
 /// Weights at distances 0, 1 … texels; they need not sum to 1.
 std::vector<double> gaussian_weights(double sigma_texels) {
-  const int reach = static_cast<int>(std::ceil(kCut * sigma_texels));
-  std::vector<double> weights(static_cast<std::size_t>(reach) + 1, 1.0);
-  for (int k = 1; k <= reach; ++k)
+  const int radius = static_cast<int>(std::ceil(kCut * sigma_texels));
+  std::vector<double> weights(static_cast<std::size_t>(radius) + 1, 1.0);
+  for (int k = 1; k <= radius; ++k)
     weights[static_cast<std::size_t>(k)] = std::exp(-0.5 * (k / sigma_texels) * (k / sigma_texels));
   return weights;
 }
@@ -31,9 +31,9 @@ struct WeightedSums {
 /// Calls body(neighbour, weight) for what is around the i-th of `count` samples along an axis.
 template <class Body>
 void for_neighbours(int i, int count, const std::vector<double>& weights, bool tiles, Body&& body) {
-  const int reach = static_cast<int>(weights.size()) - 1;
-  const int first = tiles ? i - reach : std::max(i - reach, 0);
-  const int last = tiles ? i + reach : std::min(i + reach, count - 1);
+  const int radius = static_cast<int>(weights.size()) - 1;
+  const int first = tiles ? i - radius : std::max(i - radius, 0);
+  const int last = tiles ? i + radius : std::min(i + radius, count - 1);
   int neighbour = ((first % count) + count) % count;
   for (int at = first; at <= last; ++at) {
     body(neighbour, weights[static_cast<std::size_t>(std::abs(at - i))]);

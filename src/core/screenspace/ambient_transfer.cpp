@@ -37,12 +37,12 @@ double distance_share(FuzzyMeasure measure, double xi) {
 std::vector<TangentPoint> tangent_points(const AmbientTransferOptions& options) {
   std::vector<TangentPoint> points;
   for (const Eigen::Vector3d& xi : relaxed_points(options.samples)) {
-    const double reach = options.reach * distance_share(options.measure, xi.z());
+    const double radius = options.radius * distance_share(options.measure, xi.z());
     const double azimuth = 2 * std::numbers::pi * xi.x();
-    const double level = reach * std::sqrt(xi.y());
+    const double level = radius * std::sqrt(xi.y());
     points.push_back(
         {static_cast<float>(level * std::cos(azimuth)), static_cast<float>(level * std::sin(azimuth)),
-         static_cast<float>(reach * std::sqrt(1 - xi.y())), static_cast<float>(1.0 / options.samples)});
+         static_cast<float>(radius * std::sqrt(1 - xi.y())), static_cast<float>(1.0 / options.samples)});
   }
   return points;
 }
@@ -53,7 +53,7 @@ void check_options(const AmbientTransferOptions& options) {
   }
   if (options.tests < 1 || options.tests > 4096)
     throw UsageError("ambient transfer: tests must be from 1 to 4096");
-  if (!(options.reach > 0) || std::isinf(options.reach)) {
+  if (!(options.radius > 0) || std::isinf(options.radius)) {
     throw UsageError("ambient transfer: the reach must be positive and finite");
   }
 }
@@ -71,7 +71,7 @@ std::vector<Map> trace(const DepthBuffer& depth, const std::vector<const Map*>& 
     line.open.resize(width);
     line.albedo.assign(varying.size(), std::vector<float>(width));
     for (int frame = 0; frame < frames; ++frame) {
-      PointPass pass{depth, points, options.tests, static_cast<float>(kPointBias * options.reach)};
+      PointPass pass{depth, points, options.tests, static_cast<float>(kPointBias * options.radius)};
       set_turns(options.noise, frame, pass);
       pass.albedos = varying;
       test_points(pass, row, line);

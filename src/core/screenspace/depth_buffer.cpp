@@ -75,7 +75,7 @@ DepthBuffer make_depth_buffer(const Surface& surface) {
   return depth;
 }
 
-double farthest_reach(const DepthBuffer& depth) {
+double largest_radius(const DepthBuffer& depth) {
   constexpr double kLeastSlope = 0.004;
   const double across = depth.width * depth.spacing.x;
   const double down = depth.height * depth.spacing.y;

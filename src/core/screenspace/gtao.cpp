@@ -13,7 +13,7 @@ namespace {
 
 SliceOptions slice_options(const GtaoOptions& options) {
   return {options.slices,   options.steps, options.distribution,
-          options.sampling, options.noise, options.reach};
+          options.sampling, options.noise, options.radius};
 }
 
 void check_options(const GtaoOptions& options) {
@@ -30,9 +30,9 @@ GtaoPass make_pass(const DepthBuffer& depth, const SliceTables& tables, const Gt
   pass.attenuated = options.falloff > 0 || options.thickness > 0;
   pass.thickness = static_cast<float>(options.thickness);
   if (options.falloff > 0) {
-    const double reach = std::min(options.reach, farthest_reach(depth));
-    pass.reach = static_cast<float>(reach);
-    pass.per_falloff = static_cast<float>(1 / (options.falloff * reach));
+    const double radius = std::min(options.radius, largest_radius(depth));
+    pass.radius = static_cast<float>(radius);
+    pass.per_falloff = static_cast<float>(1 / (options.falloff * radius));
   }
   return pass;
 }

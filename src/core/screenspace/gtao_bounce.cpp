@@ -32,7 +32,7 @@ ScreenSpaceView gtao_with_bounce(const DepthBuffer& depth, const GtaoOptions& op
   ScreenSpaceView view = gtao(depth, plain);
   const std::vector<float> radiance = lay_out(depth, view.sky_view_factor);
   const SliceOptions slices{options.slices,   options.steps, options.distribution,
-                            options.sampling, options.noise, options.reach};
+                            options.sampling, options.noise, options.radius};
   std::vector<SliceTables> tables;
   for (int frame = 0; frame < frame_count(options.noise); ++frame) {
     tables.push_back(make_slice_tables(depth, slices, frame));

@@ -24,7 +24,7 @@
 //
 // Read literally, three things in the paper do not hold:
 //   * Line 20, s ← sample/directionSampleCount, makes sample 0 the receiver itself, whose direction is 0/0,
-//     and never looks at the end of the reach. Steps here end at the reach (StepDistribution).
+//     and never looks at the end of the radius. Steps here end at the radius (StepDistribution).
 //   * Eq. 10 takes ⟨ω_s, ω₀⟩⁺, a horizon that is never below the horizontal, line 18 starts at −1. A plane
 //     tilted by γ shows which is right: eq. 10 says (1 + cos γ)/2, line 18 says 1.
 //   * Line 10's axis, CROSS(directionV, viewV), is no unit vector unless they are square to each other, as
@@ -46,7 +46,7 @@ struct GtaoPass {
   const DepthBuffer& depth;
   const SliceTables& tables;
   bool attenuated = false;  ///< the cosines are followed, with the two options below
-  float reach = 1e30F;      ///< where a sample's cosine has sunk to −1, by its distance in space
+  float radius = 1e30F;     ///< where a sample's cosine has sunk to −1, by its distance in space
   float per_falloff = 1;    ///< 1 / the distance over which it sinks
   float thickness = 0;      ///< β of eq. 13
 };

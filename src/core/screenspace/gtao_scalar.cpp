@@ -41,7 +41,7 @@ float attenuated_slope(const GtaoPass& pass, const std::vector<SliceSample>& sid
   for (const SliceSample& sample : side) {
     const float slope = std::max(sample_slope(pass, sample, at), -kSteepestSlope);
     const float secant = std::sqrt(slope * slope + 1);
-    const float near = std::clamp((pass.reach - sample.distance * secant) * pass.per_falloff, 0.0F, 1.0F);
+    const float near = std::clamp((pass.radius - sample.distance * secant) * pass.per_falloff, 0.0F, 1.0F);
     const float cosine = near * (slope / secant + 1) - 1;
     horizon = cosine >= horizon ? cosine : std::max(horizon - pass.thickness, -1.0F);
   }

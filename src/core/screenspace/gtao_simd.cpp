@@ -30,7 +30,7 @@ HWY_INLINE Lanes attenuated_slopes(const GtaoPass& pass, const std::vector<Slice
                                    const Receivers& at) {
   const VF one = hn::Set(kF, 1.0F);
   const VF lowest = hn::Set(kF, -1.0F);
-  const VF reach = hn::Set(kF, pass.reach);
+  const VF radius = hn::Set(kF, pass.radius);
   const VF per_falloff = hn::Set(kF, pass.per_falloff);
   const VF thickness = hn::Set(kF, pass.thickness);
   Lanes horizon;
@@ -41,7 +41,7 @@ HWY_INLINE Lanes attenuated_slopes(const GtaoPass& pass, const std::vector<Slice
     for (std::size_t v = 0; v < kBunch; ++v) {
       const VF slope = hn::Max(slopes[v], hn::Set(kF, -kSteepestSlope));
       const VF secant = hn::Sqrt(hn::Add(hn::Mul(slope, slope), one));
-      const VF inside = hn::Mul(hn::Sub(reach, hn::Mul(distance, secant)), per_falloff);
+      const VF inside = hn::Mul(hn::Sub(radius, hn::Mul(distance, secant)), per_falloff);
       const VF near = hn::Min(hn::Max(inside, hn::Zero(kF)), one);
       const VF cosine = hn::Sub(hn::Mul(near, hn::Add(hn::Div(slope, secant), one)), one);
       const VF sunk = hn::Max(hn::Sub(horizon[v], thickness), lowest);

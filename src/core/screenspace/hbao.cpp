@@ -10,19 +10,19 @@ namespace heightlight {
 
 ScreenSpaceView hbao(const DepthBuffer& depth, const HbaoOptions& options) {
   const SliceOptions slices{options.slices,   options.steps, options.distribution,
-                            options.sampling, options.noise, options.reach};
+                            options.sampling, options.noise, options.radius};
   check_slice_options("hbao", slices);
   const int frames = frame_count(options.noise);
   std::vector<SliceTables> tables;
   for (int frame = 0; frame < frames; ++frame) tables.push_back(make_slice_tables(depth, slices, frame));
-  const double reach = std::min(options.reach, farthest_reach(depth));
-  const float per_squared_reach = options.attenuated ? static_cast<float>(1 / (reach * reach)) : 0.0F;
+  const double radius = std::min(options.radius, largest_radius(depth));
+  const float per_squared_radius = options.attenuated ? static_cast<float>(1 / (radius * radius)) : 0.0F;
   const float scale = 0.5F / static_cast<float>(options.slices * frames);
   std::vector<Map> open(1, Map(depth.width, depth.height));
   parallel_for(depth.height, [&](std::int64_t i) {
     const int row = static_cast<int>(i);
     std::vector<float> sums(static_cast<std::size_t>(depth.width));
-    for (const SliceTables& frame : tables) hbao_row({depth, frame, per_squared_reach}, row, sums);
+    for (const SliceTables& frame : tables) hbao_row({depth, frame, per_squared_radius}, row, sums);
     for (int column = 0; column < depth.width; ++column) {
       open[0](row, column) = scale * sums[static_cast<std::size_t>(column)];
     }

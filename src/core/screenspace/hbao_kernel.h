@@ -15,7 +15,7 @@ namespace heightlight {
 struct HbaoPass {
   const DepthBuffer& depth;
   const SliceTables& tables;
-  float per_squared_reach = 0;  ///< 1/R²; 0 where nothing is attenuated
+  float per_squared_radius = 0;  ///< 1/R²; 0 where nothing is attenuated
 };
 
 /// Adds to `open`, per receiver of the row, the sum of 1 − (sin h − sin t) over both sides of all slices. The

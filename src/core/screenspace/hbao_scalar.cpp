@@ -25,7 +25,7 @@ float hidden_by(const HbaoPass& pass, const std::vector<SliceSample>& side, int 
     if (!(slope > horizon)) continue;
     const float squared_secant = slope * slope + 1;
     const float raised = slope / std::sqrt(squared_secant);
-    const float far = sample.distance * sample.distance * pass.per_squared_reach * squared_secant;
+    const float far = sample.distance * sample.distance * pass.per_squared_radius * squared_secant;
     hidden += std::max(1 - far, 0.0F) * (raised - sine);
     horizon = slope;
     sine = raised;

@@ -44,7 +44,7 @@ HWY_INLINE void hide_attenuated(const HbaoPass& pass, const std::vector<SliceSam
   }
   for (const SliceSample& sample : side) {
     const Lanes slopes = sample_slopes<kTaps>(pass.depth, at, sample);
-    const VF squared_way = hn::Set(kF, sample.distance * sample.distance * pass.per_squared_reach);
+    const VF squared_way = hn::Set(kF, sample.distance * sample.distance * pass.per_squared_radius);
     for (std::size_t v = 0; v < kBunch; ++v) {
       const auto rises = hn::Gt(slopes[v], horizon[v]);
       if (hn::AllFalse(kF, rises)) continue;
@@ -74,7 +74,7 @@ HWY_INLINE void look_around(const HbaoPass& pass, int row, std::vector<float>& o
         for (std::size_t v = 0; v < kBunch; ++v) {
           tangent[v] = hn::MulAdd(at.slope_x[v], x, hn::Mul(at.slope_y[v], y));
         }
-        if (pass.per_squared_reach > 0) {
+        if (pass.per_squared_radius > 0) {
           hide_attenuated<kTaps>(pass, slice.sides[side], at, tangent, sums);
         } else {
           hide_fully<kTaps>(pass, slice.sides[side], at, tangent, sums);

@@ -17,14 +17,14 @@ constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 /// From reliefs to world units. A level map has no relief to measure by, and nothing to reach for.
 template <class Options>
 Options in_world_units(Options options, const DepthBuffer& depth) {
-  if (std::isfinite(options.reach) && depth.relief > 0) options.reach *= depth.relief;
+  if (std::isfinite(options.radius) && depth.relief > 0) options.radius *= depth.relief;
   return options;
 }
 
-std::string slices_in_words(int slices, int steps, double reach, StepDistribution distribution,
+std::string slices_in_words(int slices, int steps, double radius, StepDistribution distribution,
                             DepthSampling sampling, DirectionNoise noise) {
   std::string words = in_digits(static_cast<double>(slices)) + " x " + in_digits(static_cast<double>(steps));
-  words += std::isinf(reach) ? std::string("; no end") : "; reach " + in_digits(static_cast<double>(reach));
+  words += std::isinf(radius) ? std::string("; no end") : "; reach " + in_digits(static_cast<double>(radius));
   if (distribution == StepDistribution::uniform) words += "; uniform";
   if (distribution == StepDistribution::stratified) words += "; stratified";
   if (sampling == DepthSampling::mesh) words += "; mesh";
@@ -34,7 +34,7 @@ std::string slices_in_words(int slices, int steps, double reach, StepDistributio
 }
 
 std::string in_words(const GtaoOptions& options) {
-  std::string words = slices_in_words(options.slices, options.steps, options.reach, options.distribution,
+  std::string words = slices_in_words(options.slices, options.steps, options.radius, options.distribution,
                                       options.sampling, options.noise);
   if (options.falloff > 0) words += "; falloff " + in_digits(static_cast<double>(options.falloff));
   if (options.thickness > 0) words += "; thickness " + in_digits(static_cast<double>(options.thickness));
@@ -44,7 +44,7 @@ std::string in_words(const GtaoOptions& options) {
   return words;
 }
 
-/// `options` has its reach in reliefs.
+/// `options` has its radius in reliefs.
 ScreenSpaceMethod gtao_line(const GtaoOptions& options, bool shown = false) {
   return {.name = "gtao",
           .parameters = in_words(options),
@@ -54,11 +54,11 @@ ScreenSpaceMethod gtao_line(const GtaoOptions& options, bool shown = false) {
           }};
 }
 
-GtaoOptions gtao_preset(int slices, int steps, double reach, DirectionNoise noise) {
+GtaoOptions gtao_preset(int slices, int steps, double radius, DirectionNoise noise) {
   GtaoOptions options;
   options.slices = slices;
   options.steps = steps;
-  options.reach = reach;
+  options.radius = radius;
   options.noise = noise;
   return options;
 }
@@ -70,8 +70,8 @@ struct Preset {
 /// The usual four, and the single direction of Jimenez et al. 2016, of twelve steps.
 constexpr Preset kPresets[] = {{1, 2}, {2, 2}, {3, 3}, {9, 3}, {1, 6}};
 
-/// Reach of the variants below: the best of those tried on four maps.
-constexpr double kUsualReach = 1;
+/// Radius of the variants below: the best of those tried on four maps.
+constexpr double kUsualRadius = 1;
 
 /// The last methods, of one slice: all of those reaches in squares of sixteen turns, one without turns, one
 /// of 96.
@@ -87,15 +87,16 @@ void number_directions(std::vector<ScreenSpaceMethod>& methods) {
 
 void add_gtao_presets(std::vector<ScreenSpaceMethod>& methods) {
   for (const Preset& preset : kPresets) {
-    for (const double reach : {0.5, 1.0, 2.0, 4.0}) {
-      const bool is_usual = reach == kUsualReach;
+    for (const double radius : {0.5, 1.0, 2.0, 4.0}) {
+      const bool is_usual = radius == kUsualRadius;
       methods.push_back(
-          gtao_line(gtao_preset(preset.slices, preset.steps, reach, DirectionNoise::spatial), is_usual));
+          gtao_line(gtao_preset(preset.slices, preset.steps, radius, DirectionNoise::spatial), is_usual));
       if (is_usual && preset.slices == 3) methods.back().role = kRoleOfGames;
     }
-    methods.push_back(gtao_line(gtao_preset(preset.slices, preset.steps, kUsualReach, DirectionNoise::none)));
     methods.push_back(
-        gtao_line(gtao_preset(preset.slices, preset.steps, kUsualReach, DirectionNoise::temporal)));
+        gtao_line(gtao_preset(preset.slices, preset.steps, kUsualRadius, DirectionNoise::none)));
+    methods.push_back(
+        gtao_line(gtao_preset(preset.slices, preset.steps, kUsualRadius, DirectionNoise::temporal)));
     const bool is_paper = preset.slices == 1 && preset.steps == 6;
     if (is_paper) number_directions(methods);
   }
@@ -103,7 +104,7 @@ void add_gtao_presets(std::vector<ScreenSpaceMethod>& methods) {
 
 /// The 3 × 3 preset, one thing changed at a time.
 void add_gtao_variants(std::vector<ScreenSpaceMethod>& methods) {
-  const GtaoOptions preset = gtao_preset(3, 3, kUsualReach, DirectionNoise::spatial);
+  const GtaoOptions preset = gtao_preset(3, 3, kUsualRadius, DirectionNoise::spatial);
   const auto add = [&](auto&& change) {
     GtaoOptions options = preset;
     change(options);
@@ -132,11 +133,11 @@ void add_gtao_half_resolution(std::vector<ScreenSpaceMethod>& methods) {
                          return gtao_half_resolution(depth, in_world_units(options, depth));
                        }});
   };
-  GtaoOptions paper = gtao_preset(1, 6, kUsualReach, DirectionNoise::temporal);
+  GtaoOptions paper = gtao_preset(1, 6, kUsualRadius, DirectionNoise::temporal);
   paper.accumulation = 0.1;
   add(paper);
-  add(gtao_preset(1, 6, kUsualReach, DirectionNoise::spatial));
-  add(gtao_preset(3, 3, kUsualReach, DirectionNoise::spatial));
+  add(gtao_preset(1, 6, kUsualRadius, DirectionNoise::spatial));
+  add(gtao_preset(3, 3, kUsualRadius, DirectionNoise::spatial));
 }
 
 GtaoOptions without_noise(int slices, int steps) {
@@ -170,14 +171,14 @@ void add_gtao_bounces(std::vector<ScreenSpaceMethod>& methods) {
                          return gtao_with_bounce(depth, in_world_units(options, depth));
                        }});
   };
-  add(gtao_preset(3, 3, kUsualReach, DirectionNoise::spatial), true);
-  add(gtao_preset(9, 6, kUsualReach, DirectionNoise::spatial), false);
+  add(gtao_preset(3, 3, kUsualRadius, DirectionNoise::spatial), true);
+  add(gtao_preset(9, 6, kUsualRadius, DirectionNoise::spatial), false);
   add(without_noise(16, 64), true);
 }
 
 void add_hbao(std::vector<ScreenSpaceMethod>& methods) {
   const auto add = [&](HbaoOptions options, bool shown) {
-    std::string words = slices_in_words(options.slices, options.steps, options.reach, options.distribution,
+    std::string words = slices_in_words(options.slices, options.steps, options.radius, options.distribution,
                                         options.sampling, options.noise);
     if (options.attenuated) words += "; attenuated";
     methods.push_back({.name = "hbao",
@@ -188,13 +189,13 @@ void add_hbao(std::vector<ScreenSpaceMethod>& methods) {
                        }});
   };
   HbaoOptions options;
-  for (const double reach : {0.5, 1.0, 2.0, 4.0}) {
-    options.reach = reach;
-    add(options, reach == 2);
+  for (const double radius : {0.5, 1.0, 2.0, 4.0}) {
+    options.radius = radius;
+    add(options, radius == 2);
   }
   options.attenuated = false;
-  for (const double reach : {0.5, 1.0, 2.0, 4.0}) {
-    options.reach = reach;
+  for (const double radius : {0.5, 1.0, 2.0, 4.0}) {
+    options.radius = radius;
     add(options, false);
   }
   options = {64,         128,  StepDistribution::quadratic, DepthSampling::mesh, DirectionNoise::none,
@@ -226,16 +227,16 @@ void add_ambient_transfer(std::vector<ScreenSpaceMethod>& methods) {
     std::string words = in_digits(static_cast<double>(options.samples)) + " samples" +
                         "; m = " + in_digits(static_cast<double>(options.tests)) +
                         measure_in_words(options.measure) + "; reach " +
-                        in_digits(static_cast<double>(options.reach));
+                        in_digits(static_cast<double>(options.radius));
     if (options.noise == DirectionNoise::spatial) words += "; 16 turns";
     methods.push_back(point_line("ambient transfer", words, ambient_transfer, options));
     methods.back().shown = shown;
   };
   for (const FuzzyMeasure measure : {FuzzyMeasure::step, FuzzyMeasure::root, FuzzyMeasure::exponential}) {
     for (const int tests : {1, 2}) {
-      for (const double reach : {0.25, 0.5, 1.0, 2.0}) {
-        const bool is_shown = reach == 1 && tests == 2 && measure != FuzzyMeasure::exponential;
-        add({16, tests, measure, DirectionNoise::spatial, reach}, is_shown);
+      for (const double radius : {0.25, 0.5, 1.0, 2.0}) {
+        const bool is_shown = radius == 1 && tests == 2 && measure != FuzzyMeasure::exponential;
+        add({16, tests, measure, DirectionNoise::spatial, radius}, is_shown);
       }
     }
   }
@@ -247,7 +248,7 @@ void add_ambient_transfer(std::vector<ScreenSpaceMethod>& methods) {
 void add_ssdo(std::vector<ScreenSpaceMethod>& methods) {
   const auto add = [&](const SsdoOptions& options, bool shown) {
     std::string words = in_digits(static_cast<double>(options.samples)) + " samples" + "; reach " +
-                        in_digits(static_cast<double>(options.reach));
+                        in_digits(static_cast<double>(options.radius));
     if (options.noise == DirectionNoise::spatial) words += "; 16 turns";
     if (options.smooth_end) words += "; smooth end";
     methods.push_back(point_line("ssdo", words, ssdo, options));
@@ -257,12 +258,12 @@ void add_ssdo(std::vector<ScreenSpaceMethod>& methods) {
       return ssdo_under_sky(depth, sky, in_world_units(options, depth));
     };
   };
-  for (const double reach : {0.5, 1.0, 2.0, 4.0}) add({16, DirectionNoise::spatial, reach}, reach == 2);
+  for (const double radius : {0.5, 1.0, 2.0, 4.0}) add({16, DirectionNoise::spatial, radius}, radius == 2);
   add({16, DirectionNoise::none, 2}, false);
   add({64, DirectionNoise::spatial, 2}, false);
   add({8, DirectionNoise::spatial, 2}, false);
-  add({.samples = 8, .noise = DirectionNoise::spatial, .reach = 2, .smooth_end = true}, false);
-  add({.samples = 64, .noise = DirectionNoise::spatial, .reach = 2, .smooth_end = true}, false);
+  add({.samples = 8, .noise = DirectionNoise::spatial, .radius = 2, .smooth_end = true}, false);
+  add({.samples = 64, .noise = DirectionNoise::spatial, .radius = 2, .smooth_end = true}, false);
 }
 
 }  // namespace

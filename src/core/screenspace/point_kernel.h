@@ -27,7 +27,7 @@ struct TangentPoint {
   float kept = 0;  ///< what it counts beside that, open or not
 };
 
-/// A point counts as below the surface only by more than this share of the reach: a plane does not hide
+/// A point counts as below the surface only by more than this share of the radius: a plane does not hide
 /// itself for what rounding does.
 constexpr double kPointBias = 1e-4;
 

@@ -80,10 +80,10 @@ std::optional<SliceSample> mesh_sample(const DepthBuffer& depth, double u, doubl
 
 std::vector<SliceSample> side_samples(const DepthBuffer& depth, const SliceOptions& options, double x,
                                       double y, double shift) {
-  const double reach = std::min(options.reach, farthest_reach(depth));
+  const double radius = std::min(options.radius, largest_radius(depth));
   std::vector<SliceSample> samples;
   for (int k = 0; k < options.steps; ++k) {
-    const double way = reach * step_share(options.distribution, k, options.steps, shift);
+    const double way = radius * step_share(options.distribution, k, options.steps, shift);
     const double u = way * x / depth.spacing.x;
     const double v = -way * y / depth.spacing.y;  // rows run down, y up
     const std::optional<SliceSample> sample = options.sampling == DepthSampling::nearest
@@ -102,7 +102,7 @@ void check_slice_options(const char* method, const SliceOptions& options) {
   };
   if (options.slices < 1 || options.slices > 4096) refuse("slices must be from 1 to 4096");
   if (options.steps < 1 || options.steps > 65536) refuse("steps must be from 1 to 65536");
-  if (!(options.reach > 0)) refuse("the reach must be positive");
+  if (!(options.radius > 0)) refuse("the reach must be positive");
 }
 
 int frame_count(DirectionNoise noise) { return noise == DirectionNoise::temporal ? kFrames : 1; }

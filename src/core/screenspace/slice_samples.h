@@ -64,7 +64,7 @@ struct SliceOptions {
   StepDistribution distribution = StepDistribution::quadratic;
   DepthSampling sampling = DepthSampling::nearest;
   DirectionNoise noise = DirectionNoise::none;
-  double reach = 0;
+  double radius = 0;
 };
 
 /// Throws UsageError naming `method` and what is out of its range.

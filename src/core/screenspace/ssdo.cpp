@@ -22,7 +22,7 @@ namespace {
 double faded_share(const SsdoOptions& options, double distance) {
   constexpr double kBegin = 0.5;
   if (!options.smooth_end) return 0;
-  const double t = std::clamp((distance / options.reach - kBegin) / (1 - kBegin), 0.0, 1.0);
+  const double t = std::clamp((distance / options.radius - kBegin) / (1 - kBegin), 0.0, 1.0);
   return t * t * (3 - 2 * t);
 }
 
@@ -48,7 +48,7 @@ std::vector<TangentPoint> tangent_points(const SsdoOptions& options) {
     const double cosine = (static_cast<double>(rank) + 0.5) / options.samples;
     const double sine = std::sqrt(1 - cosine * cosine);
     const double azimuth = 2 * std::numbers::pi * xi.x();
-    const double distance = options.reach * xi.z();
+    const double distance = options.radius * xi.z();
     points[order[rank]] = {static_cast<float>(distance * sine * std::cos(azimuth)),
                            static_cast<float>(distance * sine * std::sin(azimuth)),
                            static_cast<float>(distance * cosine),
@@ -60,7 +60,7 @@ std::vector<TangentPoint> tangent_points(const SsdoOptions& options) {
 
 void check_options(const SsdoOptions& options) {
   if (options.samples < 1 || options.samples > 4096) throw UsageError("ssdo: samples must be from 1 to 4096");
-  if (!(options.reach > 0) || std::isinf(options.reach)) {
+  if (!(options.radius > 0) || std::isinf(options.radius)) {
     throw UsageError("ssdo: the reach must be positive and finite");
   }
 }
@@ -71,7 +71,7 @@ void for_passes(const DepthBuffer& depth, const std::vector<TangentPoint>& point
                 Body&& body) {
   parallel_for(depth.height, [&](std::int64_t row) {
     for (int frame = 0; frame < frame_count(options.noise); ++frame) {
-      PointPass pass{depth, points, 1, static_cast<float>(kPointBias * options.reach)};
+      PointPass pass{depth, points, 1, static_cast<float>(kPointBias * options.radius)};
       set_turns(options.noise, frame, pass);
       body(static_cast<int>(row), pass);
     }
@@ -113,7 +113,7 @@ Map trace_direct(const DepthBuffer& depth, const std::vector<TangentPoint>& poin
 Map trace_bounce(const DepthBuffer& depth, const std::vector<TangentPoint>& points,
                  const SsdoOptions& options, const Map& sender) {
   std::vector<Map> sums(1, Map(depth.width, depth.height));
-  const auto area = static_cast<float>(options.reach * options.reach / options.samples);  // A_s/π
+  const auto area = static_cast<float>(options.radius * options.radius / options.samples);  // A_s/π
   const auto texel = static_cast<float>(std::sqrt(depth.spacing.x * depth.spacing.y));
   for_passes(depth, points, options, [&](int row, const PointPass& pass) {
     std::vector<float> line(static_cast<std::size_t>(depth.width));

@@ -17,7 +17,7 @@ constexpr int kFewestSkyAzimuths = 64;
 constexpr int kMostSkyAzimuths = 512;
 constexpr int kReferenceAzimuths = 1024;
 constexpr int kSkyReceivers = 128;
-constexpr WalkOptions kSkyWalk{.fineness = 32};
+constexpr WalkOptions kSkyWalk{.samples_per_octave = 32};
 
 /// What a thread needs to walk tile after tile.
 struct SkyWorkspace {
@@ -47,14 +47,14 @@ void add_azimuth(const RouteAzimuth& azimuth, const SkySlices& slices, std::size
   });
 }
 
-void walk_sky_light(const Surface& surface, const HeightMips& mips, const SkySlices& slices,
+void walk_sky_light(const Surface& surface, const HeightPyramid& pyramid, const SkySlices& slices,
                     const Watch& watch, SkyIrradiance& found) {
   WalkOptions options = kSkyWalk;
   options.azimuths = found.azimuths;
   const Route route = plan_route(surface, options, walked_azimuths(options), std::nullopt);
   const std::vector<TileFrame> tiles = all_tiles(surface);
   const RouteStep step{.route = route, .tiles = tiles, .label = "light of the sky", .watch = watch};
-  for_tiles<SkyWorkspace>(surface, mips, options, step, [&](SkyWorkspace& work, std::size_t) {
+  for_tiles<SkyWorkspace>(surface, pyramid, options, step, [&](SkyWorkspace& work, std::size_t) {
     work.sums.keep_slope = true;
     work.sums.clear();
     work.received.fill(Eigen::Vector3d::Zero());
@@ -123,13 +123,13 @@ double sky_light_rmse(const std::vector<SkyReference>& references, const std::ve
 SkyIrradiance sky_irradiance(const Surface& surface, const SkyLight& sky, const SkyAccuracy& accuracy) {
   check_sky_light(sky);
   if (accuracy.azimuths != 0) check_azimuths(accuracy.azimuths);
-  const HeightMips mips = build_height_mips(surface);
+  const HeightPyramid pyramid = build_height_pyramid(surface);
   const std::vector<SkyReference> references = find_references(surface, sky, accuracy);
   SkyIrradiance found;
   found.channels.resize(is_grey(sky) ? 1 : 3, TexelVector(surface.map.height.size()));
   found.azimuths = accuracy.azimuths > 0 ? accuracy.azimuths : kFewestSkyAzimuths;
   for (;; found.azimuths *= 2) {
-    walk_sky_light(surface, mips, SkySlices(sky, found.azimuths), accuracy.watch, found);
+    walk_sky_light(surface, pyramid, SkySlices(sky, found.azimuths), accuracy.watch, found);
     found.rmse = sky_light_rmse(references, found.channels);
     const bool good = found.rmse <= accuracy.error || found.azimuths >= kMostSkyAzimuths;
     if (good || accuracy.azimuths > 0) return found;
@@ -137,7 +137,7 @@ SkyIrradiance sky_irradiance(const Surface& surface, const SkyLight& sky, const 
 }
 
 std::uint64_t sky_irradiance_bytes(const Surface& surface, const SkyLight& sky) {
-  return height_mips_bytes(surface.width(), surface.height()) +
+  return height_pyramid_bytes(surface.width(), surface.height()) +
          maximum_pyramid_bytes(surface.width(), surface.height()) + SkySlices::bytes(sky, kReferenceAzimuths);
 }
 

@@ -46,7 +46,8 @@ double share_of_triangles(const Surface& surface, int row, int column) {
 
 /// Calls visit(texel, terms) for every texel with a sample.
 template <class Visit>
-void for_terms(const Surface& surface, const Transport& transport, const LightSystem& system, Visit&& visit) {
+void for_terms(const Surface& surface, const Transport& transport, const IrradianceSystem& system,
+               Visit&& visit) {
   const TexelVector& direct = system.direct ? *system.direct : transport.direct;
   for (int row = 0; row < surface.height(); ++row) {
     for (int column = 0; column < surface.width(); ++column) {
@@ -63,7 +64,7 @@ void for_terms(const Surface& surface, const Transport& transport, const LightSy
 
 }  // namespace
 
-EnergyAudit audit_energy(const Surface& surface, const Transport& transport, const LightSystem& system,
+EnergyAudit audit_energy(const Surface& surface, const Transport& transport, const IrradianceSystem& system,
                          const TexelVector& total) {
   double area = 0;
   double received = 0;
@@ -83,10 +84,10 @@ EnergyAudit audit_energy(const Surface& surface, const Transport& transport, con
 }
 
 // With E = E₀ + R, R what bounces bring, the balance fixes one factor of R.
-void balance_energy(const Surface& surface, const Transport& transport, const LightSystem& system,
+void balance_energy(const Surface& surface, const Transport& transport, const IrradianceSystem& system,
                     double most_change, TexelVector& total) {
   double brightest = 0;
-  double left = 0;       // of what is received, when the direct light is absorbed or gone
+  double left = 0;       // of what is received, when the direct irradiance is absorbed or gone
   double reflected = 0;  // absorbed or gone of R
   double squares = 0;
   std::size_t count = 0;

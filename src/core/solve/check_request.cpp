@@ -5,7 +5,7 @@
 
 #include "heightlight/error.h"
 #include "solve/solver.h"
-#include "visibility/reach_table.h"
+#include "visibility/distance_table.h"
 
 namespace heightlight {
 namespace {
@@ -37,11 +37,11 @@ void check_direct(const Surface& surface, const Wanted& wanted) {
       continue;
     throw UsageError("direct", "", "must have one channel, or those of the albedo");
   }
-  const auto is_light = [](double value) { return value >= 0 && std::isfinite(value); };
+  const auto is_irradiance = [](double value) { return value >= 0 && std::isfinite(value); };
   for (const TexelVector& channel : wanted.direct) {
     if (channel.size() != surface.map.height.size())
       throw UsageError("direct", "", "must have a value for every texel of the map");
-    if (!std::all_of(channel.begin(), channel.end(), is_light))
+    if (!std::all_of(channel.begin(), channel.end(), is_irradiance))
       throw UsageError("direct", "", "must be finite and not negative");
   }
   if (wanted.bounces > 0 || wanted.seen) {
@@ -67,7 +67,7 @@ void check_accuracy(const Accuracy& accuracy, const Wanted& wanted) {
     check_ray_options({.rays = accuracy.rays, .seed = accuracy.seed});
     const bool horizons = !wanted.horizon_rad.empty() ||
                           !std::all_of(wanted.definitions.begin(), wanted.definitions.end(), is_of_sky);
-    const bool more = wanted.moments.first || wanted.moments.second || horizons || wanted.reach;
+    const bool more = wanted.moments.first || wanted.moments.second || horizons || wanted.maximum_distance;
     if (more) throw UsageError("visibility", "rays", "find shares of the sky and bounces, and nothing else");
     return;
   }
@@ -97,7 +97,7 @@ void check_request(const Surface& surface, const Request& request) {
     throw UsageError("bounces", std::to_string(wanted.bounces),
                      "must be from 1 to " + std::to_string(kMostBounces));
   }
-  if (wanted.reach) check_reach(*wanted.reach);
+  if (wanted.maximum_distance) check_maximum_distance(*wanted.maximum_distance);
   for (const Albedo& albedo : wanted.totals) check_albedo(surface, albedo);
   check_direct(surface, wanted);
   check_definitions(wanted);
@@ -115,7 +115,7 @@ std::size_t total_channels(const Wanted& wanted, const Albedo& albedo) {
 }
 
 bool keeps_sky(const Wanted& wanted) {
-  return wants_sky(wanted) && !wanted.reach && wanted.below == BelowHorizontal::sky;
+  return wants_sky(wanted) && !wanted.maximum_distance && wanted.below == BelowHorizontal::sky;
 }
 
 bool lights_from_above(const Wanted& wanted) {

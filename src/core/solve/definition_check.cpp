@@ -15,7 +15,7 @@ constexpr int kCheckedAzimuths = 256;
 
 std::vector<double> check_horizon_means(const Surface& surface, const std::vector<Map>& found,
                                         const MeansGoal& goal, const Watch& watch) {
-  const ExactWalker walker(surface, kCheckedAzimuths, exact_reach(goal.reach));
+  const ExactWalker walker(surface, kCheckedAzimuths, exact_maximum_distance(goal.maximum_distance));
   std::vector<std::optional<HorizonTerms<double>>> squares(kCheckedReceivers);
   Progress progress("check of horizons", kCheckedReceivers, watch);
   parallel_for(

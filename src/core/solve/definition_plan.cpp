@@ -39,8 +39,8 @@ struct TrialReceiver {
 /// Receivers from all over the map on which walks are tried.
 class Trial {
  public:
-  Trial(const Surface& surface, const HeightMips& mips, const MeansGoal& goal, const Watch& watch)
-      : surface_(surface), mips_(mips), goal_(goal), watch_{.tell = {}, .stopped = watch.stopped} {
+  Trial(const Surface& surface, const HeightPyramid& pyramid, const MeansGoal& goal, const Watch& watch)
+      : surface_(surface), pyramid_(pyramid), goal_(goal), watch_{.tell = {}, .stopped = watch.stopped} {
     pick_blocks();
     find_exactly(watch);
   }
@@ -83,7 +83,7 @@ class Trial {
   }
 
   void find_exactly(const Watch& watch) {
-    const ExactWalker walker(surface_, kTriedAzimuths, exact_reach(goal_.reach));
+    const ExactWalker walker(surface_, kTriedAzimuths, exact_maximum_distance(goal_.maximum_distance));
     std::vector<std::optional<TrialReceiver>> found(blocks_.size() * kPerBlock);
     Progress progress("calibration of horizons", static_cast<std::int64_t>(found.size()), watch);
     parallel_for(
@@ -128,7 +128,7 @@ class Trial {
   }
 
   const Surface& surface_;
-  const HeightMips& mips_;
+  const HeightPyramid& pyramid_;
   const MeansGoal& goal_;
   Watch watch_;  ///< is told nothing, and asked whether to go on
   std::vector<TileFrame> blocks_;
@@ -139,29 +139,30 @@ double Trial::sampling_error(const WalkOptions& options) const {
   WalkOptions tried = options;
   tried.azimuths = kTriedAzimuths;
   const std::vector<HorizonBlock> walked =
-      walk_horizon_blocks(surface_, mips_, tried, blocks_, goal_.reach, watch_);
+      walk_horizon_blocks(surface_, pyramid_, tried, blocks_, goal_.maximum_distance, watch_);
   return largest_rmse([&](const TrialReceiver& receiver, std::size_t mean) {
     const auto at = static_cast<std::size_t>(receiver.row * kBlockSide + receiver.column);
     return double{walked[receiver.block][mean][at]} - receiver.all[mean];
   });
 }
 
-double cost_of(const WalkOptions& options) { return options.azimuths * (5.0 + options.fineness); }
+double cost_of(const WalkOptions& options) { return options.azimuths * (5.0 + options.samples_per_octave); }
 
 }  // namespace
 
-WalkOptions plan_horizon_means(const Surface& surface, const HeightMips& mips, const MeansGoal& goal,
+WalkOptions plan_horizon_means(const Surface& surface, const HeightPyramid& pyramid, const MeansGoal& goal,
                                const Watch& watch) {
   WalkOptions best;
   if (goal.azimuths > 0) best.azimuths = goal.azimuths;
-  const Trial trial(surface, mips, goal, watch);
+  const Trial trial(surface, pyramid, goal, watch);
   if (trial.empty()) return best;
   const double error = kAim * goal.error;
   double least = std::numeric_limits<double>::infinity();
   double least_sampling = least;
   float share = 0;  // of the peaks, the best so far: finer walks want the same, or more
-  for (const int fineness : {8, 12, 16, 24, 32, 48, 64, 96, 128}) {
-    WalkOptions options{.azimuths = kFewestAzimuths, .fineness = fineness, .peak_share = share};
+  for (const int samples_per_octave : {8, 12, 16, 24, 32, 48, 64, 96, 128}) {
+    WalkOptions options{
+        .azimuths = kFewestAzimuths, .samples_per_octave = samples_per_octave, .peak_share = share};
     double sampling = trial.sampling_error(options);
     for (const float more : {0.15F, 0.3F, 0.45F, 0.6F}) {
       if (more <= share) continue;

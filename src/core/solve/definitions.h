@@ -13,12 +13,12 @@ struct MeansGoal {
   std::vector<HorizonMean> means;
   double error = 0;  ///< RMSE wanted of each
   int azimuths = 0;  ///< > 0: fixed
-  std::optional<Reach> reach = {};
+  std::optional<MaximumDistance> maximum_distance = {};
   std::uint64_t seed = 1;  ///< of the receivers that trials are made on
 };
 
 /// How fast walks should find the means: by trials on receivers from all over the map, against exact walks.
-WalkOptions plan_horizon_means(const Surface& surface, const HeightMips& mips, const MeansGoal& goal,
+WalkOptions plan_horizon_means(const Surface& surface, const HeightPyramid& pyramid, const MeansGoal& goal,
                                const Watch& watch);
 
 /// RMSE of maps of the means, [mean asked for], on receivers picked by a hash, against exact walks. Empty

@@ -24,18 +24,18 @@ void find_means(const Task& task, const Surface& surface, const std::vector<std:
   MeansGoal goal{.means = {},
                  .error = request.accuracy.error,
                  .azimuths = request.accuracy.azimuths,
-                 .reach = request.wanted.reach,
+                 .maximum_distance = request.wanted.maximum_distance,
                  .seed = request.accuracy.seed};
   for (const std::size_t i : places) goal.means.push_back(mean_of(request.wanted.definitions[i]));
   std::vector<Map> found;
   int azimuths = evidence.azimuths;
   if (request.accuracy.visibility == Visibility::exact_slices) {
-    found = slice_horizon_means(surface, azimuths, goal.means, goal.reach, request.watch);
+    found = slice_horizon_means(surface, azimuths, goal.means, goal.maximum_distance, request.watch);
   } else {
-    const HeightMips mips = build_height_mips(surface);
-    const WalkOptions walk = plan_horizon_means(surface, mips, goal, request.watch);
+    const HeightPyramid pyramid = build_height_pyramid(surface);
+    const WalkOptions walk = plan_horizon_means(surface, pyramid, goal, request.watch);
     azimuths = walk.azimuths;
-    found = walk_horizon_means(surface, mips, walk, goal.means, goal.reach, request.watch);
+    found = walk_horizon_means(surface, pyramid, walk, goal.means, goal.maximum_distance, request.watch);
   }
   std::vector<double> errors;
   if (request.checks.sky) errors = check_horizon_means(surface, found, goal, request.watch);

@@ -10,18 +10,18 @@ namespace {
 /// 0.1 to 0.4 degrees, and at most by 0.3 at this share of it (brick walls; other maps by half of that).
 constexpr double kMomentShare = 0.6;
 
-/// The plan that there is, or one made now. Sparse azimuths are planned without a reach, and left out with
-/// one.
-SkyPlan choose_plan(const Task& task, const HeightMips& mips, const Results& results) {
+/// The plan that there is, or one made now. Sparse azimuths are planned without a maximum distance, and left
+/// out with one.
+SkyPlan choose_plan(const Task& task, const HeightPyramid& pyramid, const Results& results) {
   const Request& request = task.request;
   if (request.accuracy.plan) return request.accuracy.plan->sky;
-  const bool alike = !request.wanted.reach && request.wanted.below == BelowHorizontal::sky;
+  const bool alike = !request.wanted.maximum_distance && request.wanted.below == BelowHorizontal::sky;
   if (results.evidence.plan && alike) return results.evidence.plan->sky;
   SkyCalibration calibration(
-      task.surface, mips,
+      task.surface, pyramid,
       {.seed = request.accuracy.seed, .watch = request.watch, .below = request.wanted.below});
   SkyPlan plan = plan_sky(calibration, plan_goal(request, request.wanted.moments.first));
-  if (request.wanted.reach) {
+  if (request.wanted.maximum_distance) {
     plan.full_from = 0;
     plan.full_share = 1;
   }
@@ -29,7 +29,7 @@ SkyPlan choose_plan(const Task& task, const HeightMips& mips, const Results& res
 }
 
 SkyTask task_of(const Wanted& wanted) {
-  return {.wanted = wanted.moments, .reach = wanted.reach, .below = wanted.below};
+  return {.wanted = wanted.moments, .maximum_distance = wanted.maximum_distance, .below = wanted.below};
 }
 
 void take(HorizonSky sky, Results& results) {
@@ -41,15 +41,15 @@ void take(HorizonSky sky, Results& results) {
 void walk_sky_of(const Task& task, Results& results) {
   const Request& request = task.request;
   const Wanted& wanted = request.wanted;
-  const HeightMips mips = build_height_mips(task.surface);
-  const SkyPlan plan = choose_plan(task, mips, results);
+  const HeightPyramid pyramid = build_height_pyramid(task.surface);
+  const SkyPlan plan = choose_plan(task, pyramid, results);
   if (!results.evidence.plan) results.evidence.plan.emplace();
   results.evidence.plan->sky = plan;
   if (wants_sky(wanted) && results.sky_view_factor.size() == 0)
-    take(walk_horizon_sky(task.surface, mips, plan, task_of(wanted), request.watch), results);
+    take(walk_horizon_sky(task.surface, pyramid, plan, task_of(wanted), request.watch), results);
   if (wanted.horizon_rad.empty()) return;
-  results.horizons =
-      walk_horizons(task.surface, mips, plan.walk, wanted.horizon_rad, wanted.reach, request.watch);
+  results.horizons = walk_horizons(task.surface, pyramid, plan.walk, wanted.horizon_rad,
+                                   wanted.maximum_distance, request.watch);
 }
 
 }  // namespace
@@ -73,7 +73,8 @@ void find_sky(const Task& task, Results& results) {
         take(slice_sky(task.surface, results.evidence.azimuths, task_of(wanted), task.request.watch),
              results);
       }
-      results.horizons = slice_horizons(task.surface, wanted.horizon_rad, wanted.reach, task.request.watch);
+      results.horizons =
+          slice_horizons(task.surface, wanted.horizon_rad, wanted.maximum_distance, task.request.watch);
       return;
     case Visibility::rays:
       take(cast_sky(task.surface, {.rays = accuracy.rays, .seed = accuracy.seed}, wanted.below,

@@ -8,8 +8,8 @@ namespace heightlight {
 namespace {
 
 /// Of one channel of what is wanted at an albedo. A channel that only one of the two has goes with all.
-LightSystem system_of(const Task& task, const Albedo& albedo, std::size_t channel) {
-  LightSystem system;
+IrradianceSystem system_of(const Task& task, const Albedo& albedo, std::size_t channel) {
+  IrradianceSystem system;
   if (!task.direct.empty()) system.direct = &task.direct[channel % task.direct.size()];
   const std::size_t own = channel % albedo.channels();
   if (albedo.varying.empty()) {
@@ -22,9 +22,9 @@ LightSystem system_of(const Task& task, const Albedo& albedo, std::size_t channe
 
 /// One system per channel of the totals asked for, in their order, and one at kSeenAlbedo where `seen` says
 /// so.
-std::vector<LightSystem> list_systems(const Task& task, bool seen) {
+std::vector<IrradianceSystem> list_systems(const Task& task, bool seen) {
   const Wanted& wanted = task.request.wanted;
-  std::vector<LightSystem> systems;
+  std::vector<IrradianceSystem> systems;
   for (const Albedo& albedo : wanted.totals) {
     for (std::size_t c = 0; c < total_channels(wanted, albedo); ++c)
       systems.push_back(system_of(task, albedo, c));
@@ -33,14 +33,14 @@ std::vector<LightSystem> list_systems(const Task& task, bool seen) {
   return systems;
 }
 
-/// Totals, balanced where light is one's own.
+/// Totals, balanced where the direct irradiance is one's own.
 struct BalancedTotals : Totals {
   std::vector<double> found_imbalance;  ///< per system, before that
 };
 
 /// The sky's totals are left as they are: where all is 1 at ρ = 1, walks are scaled for that.
 BalancedTotals solve_balanced(const Task& task, const Transport& transport,
-                              const std::vector<LightSystem>& systems) {
+                              const std::vector<IrradianceSystem>& systems) {
   constexpr double kShareOfError = 0.3;
   BalancedTotals solved{transport.solve(systems, task.request.watch), {}};
   for (std::size_t i = 0; i < systems.size(); ++i) {
@@ -54,7 +54,7 @@ BalancedTotals solve_balanced(const Task& task, const Transport& transport,
 
 /// By exact walks, all of them from the same receivers: of α and A too.
 std::vector<HorizonCheck> check_totals(const Task& task, const Transport& transport,
-                                       const std::vector<LightSystem>& systems, const Totals& solved) {
+                                       const std::vector<IrradianceSystem>& systems, const Totals& solved) {
   std::vector<CheckedTotal> totals;
   for (std::size_t i = 0; i < systems.size(); ++i) {
     totals.push_back({.total = solved.irradiance[i],
@@ -78,9 +78,9 @@ struct Checked {
 };
 
 /// Finds those of the totals once more whose numbers are given, for a share of the error wanted.
-void find_again(const Task& task, const std::vector<LightSystem>& systems,
+void find_again(const Task& task, const std::vector<IrradianceSystem>& systems,
                 const std::vector<std::size_t>& which, double share, Checked& checked) {
-  std::vector<LightSystem> again;
+  std::vector<IrradianceSystem> again;
   for (const std::size_t i : which) again.push_back(systems[i]);
   const PlannedTransport finer = find_operator(task, share * task.request.accuracy.error, {});
   BalancedTotals found = solve_balanced(task, *finer.transport, again);
@@ -97,7 +97,7 @@ void find_again(const Task& task, const std::vector<LightSystem>& systems,
 /// Where the check finds that the error wanted is missed, totals are found once more, for a smaller one:
 /// smaller the more it is missed by, and where the albedo has a texture, of which plans know nothing;
 /// whatever becomes of other totals. Whether any was.
-bool refine_totals(const Task& task, const std::vector<LightSystem>& systems, Checked& checked) {
+bool refine_totals(const Task& task, const std::vector<IrradianceSystem>& systems, Checked& checked) {
   const double wanted = task.request.accuracy.error;
   std::vector<std::size_t> little;
   std::vector<std::size_t> much;
@@ -123,7 +123,7 @@ void keep_worst_channels(const Wanted& wanted, const std::vector<HorizonCheck>& 
 }
 
 /// Of all that the request wants; the last of `solved` may be at kSeenAlbedo, which is nobody's to judge.
-void check_and_refine(const Task& task, const Transport& transport, std::vector<LightSystem> systems,
+void check_and_refine(const Task& task, const Transport& transport, std::vector<IrradianceSystem> systems,
                       BalancedTotals& solved, Evidence& evidence) {
   const Request& request = task.request;
   std::size_t wanted = 0;
@@ -153,7 +153,7 @@ TexelVector find_totals(const Task& task, const Transport& transport, Results& r
   const Wanted& wanted = request.wanted;
   Evidence& evidence = results.evidence;
   const bool seen = wanted.seen || wanted.bounces > 0;
-  const std::vector<LightSystem> systems = list_systems(task, seen);
+  const std::vector<IrradianceSystem> systems = list_systems(task, seen);
   Stopwatch watch;
   BalancedTotals solved = solve_balanced(task, transport, systems);
   note_solver(solved.residual, solved.iterations, evidence);

@@ -7,7 +7,7 @@
 #include "transport/gather_calibration.h"
 #include "transport/map_gather.h"
 #include "transport/sky_calibration.h"
-#include "visibility/height_mips.h"
+#include "visibility/height_pyramid.h"
 #include "visibility/horizon_sky.h"
 
 // What is held at once, from the types that hold it: the surface, its pyramids and what has been found are
@@ -40,7 +40,7 @@ std::uint64_t count_systems(const Wanted& wanted) {
 }
 
 /// Per texel, of what bounces and totals leave behind.
-std::uint64_t found_light_bytes(const Request& request) {
+std::uint64_t irradiance_bytes(const Request& request) {
   const Wanted& wanted = request.wanted;
   const std::uint64_t stored =
       wanted.bounces > 0 && !request.sink ? static_cast<std::uint64_t>(wanted.bounces + 1) : 0;
@@ -69,16 +69,16 @@ std::uint64_t bouncing_bytes(int width, int height, const Request& request) {
   return texels * (6 * kVector + 2 * kMap + tail) + gathers + check;
 }
 
-/// Of planning walks: what calibrates them, the best gather so far, and the next, which is tried on light
-/// that the sky or each channel of one's own may make.
+/// Of planning walks: what calibrates them, the best gather so far, and the next, which is tried on a
+/// radiosity that the sky or each channel of one's own may make.
 std::uint64_t planning_bytes(int width, int height, const Request& request) {
   if (!by_walks(request)) return 0;
   const std::uint64_t sky = sky_calibration_bytes(width, height);
   if (!needs_operator(request.wanted)) return sky;
   const auto texels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
-  const std::uint64_t lights = std::max<std::uint64_t>(1, request.wanted.direct.size());
-  return sky + gather_calibration_bytes(width, height, lights) + gather_bytes(width, height, 1) +
-         gather_bytes(width, height, 0) + texels * lights * kMap;
+  const std::uint64_t radiosities = std::max<std::uint64_t>(1, request.wanted.direct.size());
+  return sky + gather_calibration_bytes(width, height, radiosities) + gather_bytes(width, height, 1) +
+         gather_bytes(width, height, 0) + texels * radiosities * kMap;
 }
 
 /// What comes one after the other: each has gone when the next begins.
@@ -98,15 +98,15 @@ std::uint64_t estimate_memory(int width, int height, const Request& request) {
   if (!wants_any && !needs_operator(wanted)) return texels * per_texel;
   per_texel += horizon_sky_bytes(wanted.moments) + kMap * wanted.horizon_rad.size();
   per_texel += kMap * wanted.definitions.size();
-  std::uint64_t pyramids = height_mips_bytes(width, height);
+  std::uint64_t pyramids = height_pyramid_bytes(width, height);
   pyramids += maximum_pyramid_bytes(width, height);  // of exact walks: those that calibrate, the checks'
   if (std::find(wanted.definitions.begin(), wanted.definitions.end(), SkyDefinition::openness_negative) !=
       wanted.definitions.end())
     per_texel += kMap + sizeof(Vector3);  // the surface upside down; its pyramids come after the others
   if (lights_from_above(wanted)) per_texel += kVector + horizon_sky_bytes({});
   if (needs_operator(wanted)) {
-    per_texel += kVector + found_light_bytes(request);  // the direct light
-    if (wanted.reach && (wanted.sky || wanted.moments.first)) per_texel += horizon_sky_bytes({});
+    per_texel += kVector + irradiance_bytes(request);  // the direct irradiance
+    if (wanted.maximum_distance && (wanted.sky || wanted.moments.first)) per_texel += horizon_sky_bytes({});
   }
   return texels * per_texel + pyramids + passing_bytes(width, height, request);
 }

@@ -40,7 +40,7 @@ HorizonSky slice_sky(const Surface& surface, int azimuths, const SkyTask& task, 
   for_rows(surface, "sky", watch, [&](int row, const Progress& progress) {
     for (int column = 0; column < surface.width(); ++column) {
       progress.throw_if_stopped();
-      const ExactSky exact = find_exact_sky(walker, row, column, task.reach, task.below);
+      const ExactSky exact = find_exact_sky(walker, row, column, task.maximum_distance, task.below);
       sky.ambient_occlusion(row, column) = static_cast<float>(exact.ambient_occlusion);
       sky.sky_view_factor(row, column) = static_cast<float>(exact.sky_view_factor);
       if (task.wanted.first) sky.moments.first(row, column) = to_vector3(exact.first.cast<float>());
@@ -53,10 +53,10 @@ HorizonSky slice_sky(const Surface& surface, int azimuths, const SkyTask& task, 
 }
 
 std::vector<Map> slice_horizons(const Surface& surface, const std::vector<double>& azimuths_rad,
-                                const std::optional<Reach>& reach, const Watch& watch) {
+                                const std::optional<MaximumDistance>& maximum_distance, const Watch& watch) {
   std::vector<Map> horizons(azimuths_rad.size(), Map(surface.width(), surface.height(), kMissing));
   if (horizons.empty()) return horizons;
-  const ExactWalker walker(surface, 1, exact_reach(reach));
+  const ExactWalker walker(surface, 1, exact_maximum_distance(maximum_distance));
   for_rows(surface, "horizons", watch, [&](int row, const Progress& progress) {
     for (int column = 0; column < surface.width(); ++column) {
       progress.throw_if_stopped();
@@ -76,10 +76,11 @@ std::vector<Map> slice_horizons(const Surface& surface, const std::vector<double
 }
 
 std::vector<Map> slice_horizon_means(const Surface& surface, int azimuths,
-                                     const std::vector<HorizonMean>& means, const std::optional<Reach>& reach,
+                                     const std::vector<HorizonMean>& means,
+                                     const std::optional<MaximumDistance>& maximum_distance,
                                      const Watch& watch) {
   std::vector<Map> found(means.size(), Map(surface.width(), surface.height(), kMissing));
-  const ExactWalker walker(surface, azimuths, exact_reach(reach));
+  const ExactWalker walker(surface, azimuths, exact_maximum_distance(maximum_distance));
   for_rows(surface, "horizons", watch, [&](int row, const Progress& progress) {
     for (int column = 0; column < surface.width(); ++column) {
       progress.throw_if_stopped();

@@ -63,8 +63,9 @@ std::optional<SkyCheck> check_sky(const Surface& surface, const CheckedSky& sky,
     if (sky.moments.second.size() > 0) receiver.moments.second = {1, 1, sky.moments.second.values[texel]};
     return receiver;
   };
-  return check_receivers_sky(walker, found,
-                             {.reach = sky.reach, .below = sky.below, .seed = seed, .watch = watch});
+  return check_receivers_sky(
+      walker, found,
+      {.maximum_distance = sky.maximum_distance, .below = sky.below, .seed = seed, .watch = watch});
 }
 
 std::optional<SkyCheck> check_receivers_sky(const ExactWalker& walker,
@@ -84,7 +85,7 @@ std::optional<SkyCheck> check_receivers_sky(const ExactWalker& walker,
         const std::uint64_t texel = hash_combine(options.seed + 3, static_cast<std::uint64_t>(i)) % texels;
         const int row = options.first_row + static_cast<int>(texel / width);
         const int column = options.first_column + static_cast<int>(texel % width);
-        const ExactSky exact = find_exact_sky(walker, row, column, options.reach, options.below);
+        const ExactSky exact = find_exact_sky(walker, row, column, options.maximum_distance, options.below);
         if (std::isnan(exact.sky_view_factor)) return;
         const CheckedReceiver receiver = found(row, column);
         if (receiver.moments.first.size() > 0) has_bent = true;

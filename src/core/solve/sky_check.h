@@ -15,7 +15,7 @@ struct CheckedSky {
   const Map& ambient_occlusion;
   const Map& sky_view_factor;
   const SkyMoments& moments;
-  const std::optional<Reach>& reach;
+  const std::optional<MaximumDistance>& maximum_distance;
   BelowHorizontal below;
 };
 
@@ -31,7 +31,7 @@ struct CheckedReceiver {
 };
 
 struct SkyCheckOptions {
-  std::optional<Reach> reach = {};
+  std::optional<MaximumDistance> maximum_distance = {};
   BelowHorizontal below = BelowHorizontal::sky;
   std::uint64_t seed = 1;
   int first_row = 0;  ///< of the part of the map that the receivers are picked from

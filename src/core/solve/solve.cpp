@@ -51,7 +51,7 @@ void check_results(const Task& task, Results& results) {
     return;
   }
   if (!request.checks.sky || results.sky_view_factor.size() == 0) return;
-  const bool more = results.moments.first.size() > 0 || request.wanted.reach ||
+  const bool more = results.moments.first.size() > 0 || request.wanted.maximum_distance ||
                     request.wanted.below == BelowHorizontal::ground;
   if (!evidence.total_checks.empty() && !more) {
     const HorizonCheck& check = evidence.total_checks[0];  // its receivers told of the sky already
@@ -64,20 +64,20 @@ void check_results(const Task& task, Results& results) {
   const CheckedSky sky{.ambient_occlusion = results.ambient_occlusion,
                        .sky_view_factor = results.sky_view_factor,
                        .moments = results.moments,
-                       .reach = request.wanted.reach,
+                       .maximum_distance = request.wanted.maximum_distance,
                        .below = request.wanted.below};
   evidence.sky_check = check_sky(task.surface, sky, accuracy.seed, request.watch);
   const bool of_operator = evidence.sky_rmse && request.wanted.below == BelowHorizontal::sky;
   if (evidence.sky_check && !of_operator) evidence.sky_rmse = evidence.sky_check->sky_view_factor;
 }
 
-/// E₀/π of a sky that has nothing below the horizontal, without a reach. It is kept where it is the sky that
-/// was asked for.
-TexelVector find_light_from_above(const Task& task, Results& results) {
-  // Of the error wanted: bounces pass on what the light errs by, and gathers err, too.
+/// E₀/π of a sky that has nothing below the horizontal, without a maximum distance. It is kept where it is
+/// the sky that was asked for.
+TexelVector find_irradiance_from_above(const Task& task, Results& results) {
+  // Of the error wanted: bounces pass on what the direct irradiance errs by, and gathers err, too.
   constexpr double kShare = 0.6;
   const Request& request = task.request;
-  const bool keeps = wants_sky(request.wanted) && !request.wanted.reach;
+  const bool keeps = wants_sky(request.wanted) && !request.wanted.maximum_distance;
   Request of_sky{.wanted = {.sky = true,
                             .moments = keeps ? request.wanted.moments : SkyWanted{},
                             .below = BelowHorizontal::ground},
@@ -117,11 +117,11 @@ Results solve(const Surface& surface, const Request& request) {
   Stopwatch watch;
   std::vector<TexelVector> from_above;
   if (lights_from_above(wanted)) {
-    from_above.push_back(find_light_from_above(task, results));
+    from_above.push_back(find_irradiance_from_above(task, results));
     task.direct = from_above;
   }
   evidence.seconds.visibility += watch.lap();
-  if (needs_operator(wanted)) find_light(task, results);
+  if (needs_operator(wanted)) find_irradiance(task, results);
   watch.lap();
   if (!wanted.horizon_rad.empty() || (wants_sky(wanted) && results.sky_view_factor.size() == 0))
     find_sky(task, results);

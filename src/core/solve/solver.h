@@ -28,8 +28,8 @@ std::size_t total_channels(const Wanted& wanted, const Albedo& albedo);
 /// Whether anything bounces, so that an operator is needed.
 bool needs_operator(const Wanted& wanted);
 
-/// Whether totals are of a sky that has nothing below the horizontal: a light of its own, beside the
-/// operator's.
+/// Whether totals are of a sky that has nothing below the horizontal: a direct irradiance of its own, beside
+/// the operator's.
 bool lights_from_above(const Wanted& wanted);
 
 /// Whether the operator's own sky is the one that was asked for.
@@ -49,9 +49,9 @@ constexpr int kExactAzimuths = 128;
 HorizonGoal plan_goal(const Request& request, bool moments);
 
 /// The operator, and by it bounces, totals and n. The sky comes with it where keeps_sky says so.
-void find_light(const Task& task, Results& results);
+void find_irradiance(const Task& task, Results& results);
 
-/// The sky alone, as far as the reach, and horizons, where no operator has found them.
+/// The sky alone, as far as the maximum distance, and horizons, where no operator has found them.
 void find_sky(const Task& task, Results& results);
 
 /// Whether a definition is A, or made of it, and not of horizons.
@@ -79,15 +79,15 @@ void note_solver(double residual, int iterations, Evidence& evidence);
 /// kSeenAlbedo, which is returned, where n or single bounces are wanted.
 TexelVector find_totals(const Task& task, const Transport& transport, Results& results);
 
-/// Where the light of a total went, that is E/π of `system`.
-EnergyAudit audit_energy(const Surface& surface, const Transport& transport, const LightSystem& system,
+/// Where the energy of a total went, that is E/π of `system`.
+EnergyAudit audit_energy(const Surface& surface, const Transport& transport, const IrradianceSystem& system,
                          const TexelVector& total);
 
 /// Makes all that is received be absorbed or escape, by one factor of what bounces bring. Gathers look from
 /// the receivers' side alone, and their errors leave a share of the order of 10⁻⁴ too much or too little over
 /// the whole map. Where that would change the total by more than `most_change` RMS, in units of the brightest
-/// direct light, samples do not resolve the surface, and the total stays.
-void balance_energy(const Surface& surface, const Transport& transport, const LightSystem& system,
+/// direct irradiance, samples do not resolve the surface, and the total stays.
+void balance_energy(const Surface& surface, const Transport& transport, const IrradianceSystem& system,
                     double most_change, TexelVector& total);
 
 /// t of the closed forms, from E/π at kSeenAlbedo.

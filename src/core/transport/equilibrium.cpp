@@ -98,9 +98,9 @@ Equilibrium solve_equilibrium(const Transport& transport, const TexelVector& sou
   return result;
 }
 
-Totals FormFactors::solve(const std::vector<LightSystem>& systems, const Watch& watch) const {
+Totals FormFactors::solve(const std::vector<IrradianceSystem>& systems, const Watch& watch) const {
   Totals totals;
-  for (const LightSystem& system : systems) {
+  for (const IrradianceSystem& system : systems) {
     const TexelVector& source = system.direct ? *system.direct : direct;
     const TexelVector albedo = system.varying ? *system.varying : TexelVector(source.size(), system.albedo);
     Equilibrium solved = solve_equilibrium(*this, source, albedo, source, watch);

@@ -44,8 +44,8 @@ class GatherCalibration {
   /// Of each exact receiver.
   std::vector<SeenField> see_field(const Map& x) const;
 
-  /// RMS of what a total changes by at the last step for a change of 1 of A: what its direct light does, less
-  /// the mean of the radiosity seen.
+  /// RMS of what a total changes by at the last step for a change of 1 of A: what its direct irradiance does,
+  /// less the mean of the radiosity seen.
   double sky_effect(const std::vector<SeenField>& radiosity, double direct_per_sky) const;
 
   /// RMSE that sampling brings into a total: one gather's, of (1 − A) × the mean of x seen against exact

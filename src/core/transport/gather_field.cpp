@@ -37,7 +37,7 @@ void update(const ReceiverTile& tile, const GatherSums& sums, std::size_t f, con
 
 }  // namespace
 
-GatherField start_field(const LightSystem& system, const Map& sky) {
+GatherField start_field(const IrradianceSystem& system, const Map& sky) {
   GatherField field{.system = system};
   if (system.direct) field.unit = unit_of(*system.direct);
   field.irradiance = Map(sky.width, sky.height);

@@ -9,9 +9,9 @@ namespace heightlight {
 
 /// One system on its way: all that its receivers know.
 struct GatherField {
-  const LightSystem& system;
+  const IrradianceSystem& system;
   GatherCourse course = {};
-  double unit = 1;      ///< of its light
+  double unit = 1;      ///< of its direct irradiance
   Map irradiance = {};  ///< E_k/π in units; NaN where the sample is missing
   Map before = {};      ///< E_{k−1}
   Map weighted = {};    ///< N and W
@@ -22,8 +22,8 @@ struct GatherField {
   double direct(std::size_t i, double sky) const { return system.direct ? (*system.direct)[i] / unit : sky; }
 };
 
-/// At the start: a closed form under the sky, light of one's own before it bounces.
-GatherField start_field(const LightSystem& system, const Map& sky);
+/// At the start: a closed form under the sky, irradiance of one's own before it bounces.
+GatherField start_field(const IrradianceSystem& system, const Map& sky);
 
 /// ρ (E_k − kept E_{k−1})/π: what the gather to come looks at.
 inline float new_radiosity(double albedo, float irradiance, float before, double kept) {

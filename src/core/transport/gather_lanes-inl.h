@@ -304,17 +304,17 @@ class GatherLanes {
     const GV towards_step = hn::Sub(to.towards, from.towards);
     const GV near_scale = hn::Mul(from_way, to.cosine);
     const GV far_scale = hn::Mul(to_way, from.cosine);
-    // Both nodes' weights towards · along and shares near / reach, over one denominator.
-    std::array<GV, 2> weight, near, reach;
+    // Both nodes' weights towards · along and shares near / farther, over one denominator.
+    std::array<GV, 2> weight, near, farther;
     for (std::size_t i = 0; i < 2; ++i) {
       weight[i] =
           hn::Mul(hn::MulAdd(node[i], towards_step, from.towards), hn::MulAdd(node[i], step, from.cosine));
       near[i] = hn::Mul(node[i], near_scale);
-      reach[i] = hn::MulAdd(node[1 - i], far_scale, near[i]);
+      farther[i] = hn::MulAdd(node[1 - i], far_scale, near[i]);
     }
     const GV weighted =
-        hn::MulAdd(hn::Mul(weight[0], reach[1]), near[0], hn::Mul(hn::Mul(weight[1], reach[0]), near[1]));
-    const GV whole = hn::Mul(hn::Add(weight[0], weight[1]), hn::Mul(reach[0], reach[1]));
+        hn::MulAdd(hn::Mul(weight[0], farther[1]), near[0], hn::Mul(hn::Mul(weight[1], farther[0]), near[1]));
+    const GV whole = hn::Mul(hn::Add(weight[0], weight[1]), hn::Mul(farther[0], farther[1]));
     return hn::IfThenElse(hn::Gt(whole, hn::Set(kGF, 1e-30F)), quotient(weighted, whole), hn::Set(kGF, 0.5F));
   }
 

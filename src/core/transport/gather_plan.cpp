@@ -25,9 +25,9 @@ constexpr double kLittle = 0.5;
 /// A finer walk that leaves more than this of the error is not worth it.
 constexpr double kWorthFiner = 0.9;
 
-/// What the noise of the light that the last gather sees adds to its own, as a share of what as many azimuths
-/// leave by themselves: on bricks 0.5 to 0.7, where along a joint all receivers see it alike, on fractal
-/// ground half of that.
+/// What the noise of the radiosity that the last gather sees adds to its own, as a share of what as many
+/// azimuths leave by themselves: on bricks 0.5 to 0.7, where along a joint all receivers see it alike, on
+/// fractal ground half of that.
 constexpr double kCarriedShare = 0.5;
 
 /// Azimuths in the sums of the gather that has so many left, itself among them, as they weigh there.
@@ -48,10 +48,10 @@ class AzimuthErrors {
     find_order();
   }
 
-  /// The largest under any of the lights.
-  AzimuthErrors(const GatherCalibration& calibration, const std::vector<PlanLight>& lights) {
-    for (const PlanLight& light : lights) {
-      const GatherCalibration::AzimuthTrials found = calibration.azimuth_errors(light.seen);
+  /// The largest of any radiosity.
+  AzimuthErrors(const GatherCalibration& calibration, const std::vector<PlanRadiosity>& radiosities) {
+    for (const PlanRadiosity& radiosity : radiosities) {
+      const GatherCalibration::AzimuthTrials found = calibration.azimuth_errors(radiosity.seen);
       for (std::size_t i = 0; i < found.size(); ++i) measured_[i] = std::max(measured_[i], found[i]);
     }
     find_order();
@@ -96,21 +96,21 @@ double azimuths_leave(const AzimuthErrors& errors, int azimuths) {
 
 /// What five gathers cost, a usual number: an azimuth took 24, 30, 34, 42, 49, 59 and 70 ns per texel for ν
 /// of 8, 12, 16, 24, 32, 48 and 64 on bricks, and walking none of them 15.
-double gathers_cost(int fineness, int azimuths) {
+double gathers_cost(int samples_per_octave, int azimuths) {
   constexpr int kGathers = 5;
   double walked = 0;
   for (int left = 1; left <= kGathers; ++left) walked += gather_azimuths(left, azimuths);
-  return kGathers * 15 + walked * (17 + 0.85 * fineness);
+  return kGathers * 15 + walked * (17 + 0.85 * samples_per_octave);
 }
 
-/// A plan's fineness and azimuths, what they leave, and what they cost.
+/// A plan's samples per octave and azimuths, what they leave, and what they cost.
 struct Candidate {
   GatherPlan plan = {};
   double cost = 0;
 };
 
-/// Azimuths at most: of the sky's light more tell little that fewer do not; of a sun's, which lights one side
-/// of a roof and not the other, they tell much.
+/// Azimuths at most: of the sky's irradiance more tell little that fewer do not; of a sun's, which lights one
+/// side of a roof and not the other, they tell much.
 constexpr int most_azimuths(double unevenness) { return unevenness > 1 ? 256 : 64; }
 
 /// With the fewest azimuths that leave no more than the error beside what sampling leaves; if none do, with
@@ -123,7 +123,7 @@ Candidate choose_azimuths(const AzimuthErrors& errors, double sampled, double wa
     plan.error = std::hypot(sampled, few, kEndShare * wanted);
     if (plan.error <= wanted || (sampled > wanted && few < kLittle * sampled)) break;
   }
-  return {plan, gathers_cost(plan.walk.fineness, plan.walk.azimuths)};
+  return {plan, gathers_cost(plan.walk.samples_per_octave, plan.walk.azimuths)};
 }
 
 bool is_better(const Candidate& a, const Candidate& b, double wanted) {
@@ -150,8 +150,8 @@ Map radiosity_of(const Map& sky, Irradiance&& irradiance) {
 }
 
 /// Light of one's own. Of what it brings by bounces the closed form knows under the sky, G − A; in the mean
-/// it goes with the direct light of what is seen.
-PlanLight plan_light(const Surface& surface, const Map& sky, const TexelVector& direct) {
+/// it goes with the direct irradiance of what is seen.
+PlanRadiosity plan_radiosity(const Surface& surface, const Map& sky, const TexelVector& direct) {
   const double brightest = *std::max_element(direct.begin(), direct.end());
   const double per_unit = brightest > 0 ? 1 / brightest : 0;
   double seen_direct = 0;
@@ -172,55 +172,55 @@ PlanLight plan_light(const Surface& surface, const Map& sky, const TexelVector& 
           .unevenness = unevenness({.direct = &direct, .albedo = kPlanAlbedo}, sky, surface)};
 }
 
-/// RMSE that sampling brings into a total, under the light that it brings most into.
+/// RMSE that sampling brings into a total of the radiosity that it brings most into.
 double sampling_error(const GatherCalibration& calibration, const MapGather& gather,
-                      const std::vector<PlanLight>& lights) {
+                      const std::vector<PlanRadiosity>& radiosities) {
   double largest = 0;
-  for (const PlanLight& light : lights) {
+  for (const PlanRadiosity& radiosity : radiosities) {
     FieldPyramid pyramid = gather.make_pyramid();
-    pyramid.fill(light.radiosity);
-    largest = std::max(largest, calibration.sampling_error(gather, pyramid, light.seen));
+    pyramid.fill(radiosity.radiosity);
+    largest = std::max(largest, calibration.sampling_error(gather, pyramid, radiosity.seen));
   }
   return largest;
 }
 
 }  // namespace
 
-std::vector<PlanLight> plan_lights(const GatherCalibration& calibration, const Map& sky,
-                                   const HorizonGoal& goal) {
-  std::vector<PlanLight> lights;
+std::vector<PlanRadiosity> plan_radiosities(const GatherCalibration& calibration, const Map& sky,
+                                            const HorizonGoal& goal) {
+  std::vector<PlanRadiosity> radiosities;
   for (const TexelVector& direct : goal.direct)
-    lights.push_back(plan_light(calibration.surface(), sky, direct));
-  if (lights.empty()) {
+    radiosities.push_back(plan_radiosity(calibration.surface(), sky, direct));
+  if (radiosities.empty()) {
     const auto total = [&](std::size_t i) { return guess_total(double{sky.values[i]}, kPlanAlbedo); };
-    lights.push_back({.radiosity = radiosity_of(sky, total), .seen = {}});
+    radiosities.push_back({.radiosity = radiosity_of(sky, total), .seen = {}});
   }
-  for (PlanLight& light : lights) light.seen = calibration.see_field(light.radiosity);
-  return lights;
+  for (PlanRadiosity& radiosity : radiosities) radiosity.seen = calibration.see_field(radiosity.radiosity);
+  return radiosities;
 }
 
-PlannedGather plan_gather(const GatherCalibration& calibration, const HeightMips& mips, double error,
+PlannedGather plan_gather(const GatherCalibration& calibration, const HeightPyramid& pyramid, double error,
                           const PlannedSky& planned_sky) {
   PlannedGather planned;
   planned.plan.walk.peak_share = planned_sky.plan.walk.peak_share;
-  planned.plan.walk.fineness = 16;
+  planned.plan.walk.samples_per_octave = 16;
   if (calibration.empty()) {
-    planned.gather = std::make_unique<MapGather>(calibration.surface(), mips, planned.plan.walk);
+    planned.gather = std::make_unique<MapGather>(calibration.surface(), pyramid, planned.plan.walk);
     return planned;
   }
   const Map& sky = planned_sky.sky.sky_view_factor;
-  const std::vector<PlanLight>& lights = planned_sky.lights;
-  const AzimuthErrors errors(calibration, lights);
+  const std::vector<PlanRadiosity>& radiosities = planned_sky.radiosities;
+  const AzimuthErrors errors(calibration, radiosities);
   planned.plan.unevenness = 0;
-  for (const PlanLight& light : lights)
-    planned.plan.unevenness = std::max(planned.plan.unevenness, light.unevenness);
+  for (const PlanRadiosity& radiosity : radiosities)
+    planned.plan.unevenness = std::max(planned.plan.unevenness, radiosity.unevenness);
   const double wanted = error_for_gathers(error, planned_sky.effect);
   Candidate best;
-  for (const int fineness : {8, 12, 16, 24, 32, 48, 64}) {
+  for (const int samples_per_octave : {8, 12, 16, 24, 32, 48, 64}) {
     GatherPlan plan = planned.plan;
-    plan.walk.fineness = fineness;
-    auto gather = std::make_unique<MapGather>(calibration.surface(), mips, plan.walk);
-    const double sampled = sampling_error(calibration, *gather, lights);
+    plan.walk.samples_per_octave = samples_per_octave;
+    auto gather = std::make_unique<MapGather>(calibration.surface(), pyramid, plan.walk);
+    const double sampled = sampling_error(calibration, *gather, radiosities);
     const Candidate candidate = choose_azimuths(errors, sampled, wanted, plan);
     if (!planned.gather || is_better(candidate, best, wanted)) {
       best = candidate;

@@ -57,7 +57,7 @@ int halved_azimuths(int azimuths, int halvings, int fewest) {
 
 GatherWalk make_gather_walk(const Surface& surface, const WalkOptions& options, double turn,
                             const FieldPyramid& layout) {
-  GatherWalk walk{.least_rise = least_rise(options.fineness)};
+  GatherWalk walk{.least_rise = least_rise(options.samples_per_octave)};
   const std::ptrdiff_t stride = layout.level(0).stride();
   for (const int k : spread_order(options.azimuths)) {
     const double azimuth = 2 * std::numbers::pi * (k + turn) / options.azimuths;

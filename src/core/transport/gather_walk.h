@@ -57,9 +57,9 @@ struct GatherAzimuth {
 /// β: a rise of a slope m by less than β (1 + |m|) waits for the next sample. Of such rises there are the
 /// more the finer the samples are: with this, gathers on bricks and on fractal ground err as much as with
 /// half of it, at reliefs from .1 to 1, and take an eighth less time.
-constexpr float least_rise(int fineness) {
+constexpr float least_rise(int samples_per_octave) {
   constexpr float kMost = 0.08F;
-  return fineness > 8 ? 8 * kMost / static_cast<float>(fineness) : kMost;
+  return samples_per_octave > 8 ? 8 * kMost / static_cast<float>(samples_per_octave) : kMost;
 }
 
 /// How often a gather's azimuths can be halved for receivers that need not look so closely.

@@ -42,7 +42,8 @@ struct Check {
 };
 
 /// E₀/π of a total at a receiver.
-double direct_light(const Check& check, const FoundTotal& checked, const SliceView& view, std::size_t texel) {
+double direct_irradiance(const Check& check, const FoundTotal& checked, const SliceView& view,
+                         std::size_t texel) {
   if (!checked.direct) return view.sky_view_factor;
   if (!check.above_horizontal) return checked.direct(texel);
   const auto width = static_cast<std::size_t>(check.walker.surface().width());
@@ -55,7 +56,7 @@ double find_residual(const Check& check, const FoundTotal& checked, const SliceV
                      std::size_t texel) {
   const auto radiosity = [&](std::size_t i) { return checked.albedo(i) * checked.total(i); };
   const double gathered = gather_exactly(view, check.walker.surface(), radiosity);
-  return checked.total(texel) - direct_light(check, checked, view, texel) - gathered;
+  return checked.total(texel) - direct_irradiance(check, checked, view, texel) - gathered;
 }
 
 /// What the walker sees from a texel.

@@ -15,7 +15,7 @@ using ValueAt = std::function<double(std::size_t)>;
 struct FoundTotal {
   ValueAt total = {};  ///< E/π
   ValueAt albedo = {};
-  ValueAt direct = {};  ///< E₀/π of light of one's own; empty: the sky's
+  ValueAt direct = {};  ///< E₀/π of one's own; empty: the sky's
 };
 
 struct FoundMaps {

@@ -22,31 +22,31 @@ double sky_cost(const SkyPlan& plan);
 /// How the sky is to be walked.
 SkyPlan plan_sky(SkyCalibration& calibration, const HorizonGoal& goal);
 
-/// Light that totals are planned for: its radiosity / π at kPlanAlbedo, in units of the brightest direct
-/// light, as closed forms have it. What gathers make of it errs by about as much as what they make of the
-/// true one.
-struct PlanLight {
+/// What totals are planned for: a radiosity / π at kPlanAlbedo, in units of the brightest direct
+/// irradiance, as closed forms have it. What gathers make of it errs by about as much as what they make of
+/// the true one.
+struct PlanRadiosity {
   Map radiosity;
   std::vector<GatherCalibration::SeenField> seen;  ///< of the radiosity, by the calibration's receivers
-  double per_sky = 1;                              ///< what direct light changes by with A
+  double per_sky = 1;                              ///< what direct irradiance changes by with A
   double unevenness = 1;                           ///< as GatherPlan has it
 };
 
 /// Those of a goal, at least one.
-std::vector<PlanLight> plan_lights(const GatherCalibration& calibration, const Map& sky,
-                                   const HorizonGoal& goal);
+std::vector<PlanRadiosity> plan_radiosities(const GatherCalibration& calibration, const Map& sky,
+                                            const HorizonGoal& goal);
 
 /// A sky as it was walked, and the RMSE of a total at kPlanAlbedo that what A errs by brings.
 struct PlannedSky {
   SkyPlan plan = {};
   HorizonSky sky = {};
-  std::vector<PlanLight> lights = {};
-  double effect = 0;  ///< under the light that it is most under
+  std::vector<PlanRadiosity> radiosities = {};
+  double effect = 0;  ///< of the radiosity that it is largest for
 };
 
 /// A total hangs on A by more than A's own error, where that is of one sign along a wall. Where it would take
 /// most of the total's error, A is walked once more, and better than it was wanted.
-PlannedSky find_sky_for_totals(const HeightMips& mips, const HorizonGoal& goal, const SkyWanted& wanted,
+PlannedSky find_sky_for_totals(const HeightPyramid& pyramid, const HorizonGoal& goal, const SkyWanted& wanted,
                                GatherCalibration& gathers, const Watch& watch);
 
 /// How gathers are to be walked, and what walks them.
@@ -56,7 +56,7 @@ struct PlannedGather {
 };
 
 /// Once the sky is known; `error` is the RMSE wanted of a total.
-PlannedGather plan_gather(const GatherCalibration& calibration, const HeightMips& mips, double error,
+PlannedGather plan_gather(const GatherCalibration& calibration, const HeightPyramid& pyramid, double error,
                           const PlannedSky& planned_sky);
 
 }  // namespace heightlight

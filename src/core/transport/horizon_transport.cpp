@@ -42,15 +42,16 @@ class HorizonTransport : public Transport {
   std::unique_ptr<BounceSequence> start_bounces() const override {
     const BounceWalk walk{.azimuths = plan_.first_bounce_azimuths, .error = error_};
     std::shared_ptr<const MapGather> gather = gather_;
-    if (plan_.walk.fineness < kBounceFineness) {
+    if (plan_.walk.samples_per_octave < kBounceFineness) {
       WalkOptions finer = plan_.walk;
-      finer.fineness = kBounceFineness;
-      gather = std::make_shared<MapGather>(gather_->surface(), build_height_mips(gather_->surface()), finer);
+      finer.samples_per_octave = kBounceFineness;
+      gather =
+          std::make_shared<MapGather>(gather_->surface(), build_height_pyramid(gather_->surface()), finer);
     }
     return std::make_unique<WalkedBounces>(std::move(gather), *this, walk, watch_);
   }
 
-  Totals solve(const std::vector<LightSystem>& systems, const Watch& watch) const override {
+  Totals solve(const std::vector<IrradianceSystem>& systems, const Watch& watch) const override {
     const ProgressiveGoal goal{
         .error = error_, .last_azimuths = plan_.walk.azimuths, .planned_unevenness = plan_.unevenness};
     ProgressiveSolution solution = gather_progressively(*gather_, sky_view_factor, systems, goal, watch);
@@ -87,8 +88,8 @@ void check_horizon_plan(const HorizonPlan& plan) {
     }
   }
   for (const WalkOptions& walk : {plan.sky.walk, plan.gather.walk}) {
-    if (walk.fineness < 1 || walk.fineness > kFinest)
-      throw UsageError("fineness", std::to_string(walk.fineness), "must be from 1 to 128");
+    if (walk.samples_per_octave < 1 || walk.samples_per_octave > kFinest)
+      throw UsageError("fineness", std::to_string(walk.samples_per_octave), "must be from 1 to 128");
     if (!(walk.peak_share >= 0 && walk.peak_share <= 1))
       throw UsageError("peak_share", std::to_string(walk.peak_share), "must be from 0 to 1");
   }
@@ -98,10 +99,10 @@ std::unique_ptr<Transport> build_horizon_transport(const Surface& surface, const
                                                    double error, const Watch& watch) {
   if (!(error > 0)) throw UsageError("error", std::to_string(error), "must be positive");
   check_horizon_plan(plan);
-  const HeightMips mips = build_height_mips(surface);
-  HorizonSky sky = walk_horizon_sky(surface, mips, plan.sky, {}, watch);
+  const HeightPyramid pyramid = build_height_pyramid(surface);
+  HorizonSky sky = walk_horizon_sky(surface, pyramid, plan.sky, {}, watch);
   PlannedGather planned{.plan = plan.gather,
-                        .gather = std::make_unique<MapGather>(surface, mips, plan.gather.walk)};
+                        .gather = std::make_unique<MapGather>(surface, pyramid, plan.gather.walk)};
   return std::make_unique<HorizonTransport>(std::move(sky), std::move(planned), error, watch);
 }
 
@@ -110,10 +111,10 @@ PlannedTransport plan_horizon_transport(const Surface& surface, const HorizonGoa
   if (!(goal.error > 0)) throw UsageError("error", std::to_string(goal.error), "must be positive");
   if (goal.azimuths > 0) check_azimuths(goal.azimuths);
   PlannedTransport planned;
-  const HeightMips mips = build_height_mips(surface);
+  const HeightPyramid pyramid = build_height_pyramid(surface);
   GatherCalibration calibration(surface, {.seed = goal.seed, .watch = watch});
-  PlannedSky sky = find_sky_for_totals(mips, goal, wanted, calibration, watch);
-  PlannedGather gather = plan_gather(calibration, mips, goal.error, sky);
+  PlannedSky sky = find_sky_for_totals(pyramid, goal, wanted, calibration, watch);
+  PlannedGather gather = plan_gather(calibration, pyramid, goal.error, sky);
   planned.plan = {.sky = sky.plan, .gather = gather.plan};
   planned.moments = std::move(sky.sky.moments);
   planned.transport =

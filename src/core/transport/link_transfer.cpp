@@ -52,8 +52,9 @@ double distance_to(const Surface& surface, const SeenPlace& place, int row, int 
 }
 
 /// What the receiver sees, for one channel of the albedo.
-void collect_occluders(const Surface& surface, const FormFactors& form_factors, const Reach& reach,
-                       std::size_t receiver, std::vector<Occluder<double>>& occluders) {
+void collect_occluders(const Surface& surface, const FormFactors& form_factors,
+                       const MaximumDistance& maximum_distance, std::size_t receiver,
+                       std::vector<Occluder<double>>& occluders) {
   const int row = static_cast<int>(receiver / static_cast<std::size_t>(surface.width()));
   const int column = static_cast<int>(receiver % static_cast<std::size_t>(surface.width()));
   const LinkRow& line = form_factors.rows[static_cast<std::size_t>(row)];
@@ -65,7 +66,8 @@ void collect_occluders(const Surface& surface, const FormFactors& form_factors, 
                                    ? line.weights[k]
                                    : form_factors.ray_weights[line.weight_table[j]][link.weight];
     const SeenPlace place = find_place(surface, form_factors, link, nullptr);
-    occluders.push_back({form_factor, open_share(reach, distance_to(surface, place, row, column)), 0});
+    occluders.push_back(
+        {form_factor, open_share(maximum_distance, distance_to(surface, place, row, column)), 0});
   }
 }
 
@@ -86,7 +88,7 @@ void set_albedos(const Surface& surface, const FormFactors& form_factors, const 
 }  // namespace
 
 AmbientTransfer find_ambient_transfer(const Surface& surface, const FormFactors& form_factors,
-                                      const Reach& reach, const Albedo& albedo) {
+                                      const MaximumDistance& maximum_distance, const Albedo& albedo) {
   assert(form_factors.width == surface.width() && form_factors.height == surface.height());
   constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
   AmbientTransfer found;
@@ -98,7 +100,7 @@ AmbientTransfer find_ambient_transfer(const Surface& surface, const FormFactors&
       const std::size_t i = surface.map.height.index(static_cast<int>(row), column);
       const SkyViewFactor sky(double{form_factors.sky_view_factor.values[i]});
       if (std::isnan(sky.value)) continue;
-      collect_occluders(surface, form_factors, reach, i, occluders);
+      collect_occluders(surface, form_factors, maximum_distance, i, occluders);
       double obscurance = sky.value;
       for (const Occluder<double>& seen : occluders) obscurance += seen.form_factor * seen.openness;
       found.obscurance.values[i] = static_cast<float>(clamp_share(obscurance));

@@ -50,13 +50,13 @@ int azimuth_halvings(double surface_share) {
   return surface_share < 0.04 ? 3 : surface_share < 0.12 ? 2 : surface_share < 0.4 ? 1 : 0;
 }
 
-MapGather::MapGather(const Surface& surface, const HeightMips& mips, const WalkOptions& options)
-    : surface_(surface), options_(options), scene_(build_horizon_scene(surface, mips, options)) {}
+MapGather::MapGather(const Surface& surface, const HeightPyramid& pyramid, const WalkOptions& options)
+    : surface_(surface), options_(options), scene_(build_horizon_scene(surface, pyramid, options)) {}
 
 FieldPyramid MapGather::make_pyramid() const {
   // Up to one block, so that holes find a value. Those of windows have found theirs.
   const int to_one = surface_.around ? 0 : levels_to_one(surface_.width(), surface_.height());
-  return {surface_, std::max(ring_count(surface_, options_), to_one), walk_reach(options_)};
+  return {surface_, std::max(ring_count(surface_, options_), to_one), walk_margin(options_)};
 }
 
 void MapGather::run(const GatherTurn& turn, const std::vector<const FieldPyramid*>& fields,
@@ -98,9 +98,9 @@ void MapGather::run_on(const std::vector<TileFrame>& frames, const GatherTurn& t
 }
 
 std::uint64_t gather_bytes(int width, int height, std::uint64_t fields) {
-  const int reach = walk_reach({.fineness = 24});
-  const std::uint64_t pyramid = field_pyramid_bytes(width, height, levels_to_one(width, height), reach);
-  return (1 + fields) * pyramid + field_pyramid_bytes(width, height, 0, reach);
+  const int margin = walk_margin({.samples_per_octave = 24});
+  const std::uint64_t pyramid = field_pyramid_bytes(width, height, levels_to_one(width, height), margin);
+  return (1 + fields) * pyramid + field_pyramid_bytes(width, height, 0, margin);
 }
 
 }  // namespace heightlight

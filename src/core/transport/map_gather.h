@@ -23,7 +23,7 @@ struct GatherTurn {
 class MapGather {
  public:
   /// The surface must outlive it. Azimuths of `options` are not used.
-  MapGather(const Surface& surface, const HeightMips& mips, const WalkOptions& options);
+  MapGather(const Surface& surface, const HeightPyramid& pyramid, const WalkOptions& options);
 
   /// A pyramid that its gathers can read.
   FieldPyramid make_pyramid() const;
@@ -48,8 +48,8 @@ class MapGather {
   HorizonScene scene_;
 };
 
-/// Bytes that a gather of `fields` fields holds on a map of that size, at a fineness of 24: few maps want
-/// more.
+/// Bytes that a gather of `fields` fields holds on a map of that size, at 24 samples per octave: few
+/// maps want more.
 std::uint64_t gather_bytes(int width, int height, std::uint64_t fields);
 
 /// The number of azimuths next to `azimuths` that can be halved as often as pays: up to 4, above that a

@@ -28,19 +28,20 @@ double seen_spread(const Map& sky, const Surface& surface, Value&& value) {
   return weights > 0 ? std::sqrt(std::max(0.0, squares - sum * sum / weights) / weights) : 0;
 }
 
-double highest_albedo(const LightSystem& system) {
+double highest_albedo(const IrradianceSystem& system) {
   if (!system.varying) return system.albedo;
   return *std::max_element(system.varying->begin(), system.varying->end());
 }
 
-/// Of `light`, which the system starts with.
-double unevenness_of(const LightSystem& system, const Map& light, const Map& sky, const Surface& surface) {
+/// Of the irradiance `start`, which the system starts with.
+double unevenness_of(const IrradianceSystem& system, const Map\& start, const Map& sky,
+                     const Surface& surface) {
   const double even = seen_spread(sky, surface, [&](std::size_t i) {
     return kPlanAlbedo * guess_total(double{sky.values[i]}, kPlanAlbedo);
   });
   const double spread = seen_spread(sky, surface, [&](std::size_t i) {
     const double albedo = system.varying ? (*system.varying)[i] : system.albedo;
-    return albedo * double{light.values[i]};
+    return albedo * double{start.values[i]};
   });
   return even > 0 ? spread / even : 1;
 }
@@ -88,7 +89,7 @@ double guess_total(double sky, double albedo) {
   return bounced_total(share, guess_seen(share), albedo);
 }
 
-double unevenness(const LightSystem& system, const Map& sky, const Surface& surface) {
+double unevenness(const IrradianceSystem& system, const Map& sky, const Surface& surface) {
   return unevenness_of(system, start_field(system, sky).irradiance, sky, surface);
 }
 
@@ -101,14 +102,14 @@ int azimuths_for_unevenness(double found, const ProgressiveGoal& goal) {
 }
 
 ProgressiveSolution gather_progressively(const MapGather& gather, const Map& sky,
-                                         const std::vector<LightSystem>& systems, const ProgressiveGoal& goal,
-                                         const Watch& watch) {
+                                         const std::vector<IrradianceSystem>& systems,
+                                         const ProgressiveGoal& goal, const Watch& watch) {
   assert(goal.error > 0);
   Progress progress("bounces", 0, watch);
   const Surface& surface = gather.surface();
   const double deep_share = deep_surface_share(sky, surface);
   std::vector<GatherField> fields;
-  for (const LightSystem& system : systems) {
+  for (const IrradianceSystem& system : systems) {
     GatherField& field = fields.emplace_back(start_field(system, sky));
     const double found = unevenness_of(system, field.irradiance, sky, surface);
     field.course = begin_course(highest_albedo(system), deep_share, azimuths_for_unevenness(found, goal));

@@ -25,7 +25,7 @@ namespace heightlight {
 /// No azimuth is walked for one gather alone. The sums that belong to E_k, N_k of what is seen and W_k of the
 /// weights, go on as
 ///     N_{k+1} = λ N_k + N[ρ (E_{k+1} − λ E_k)],   W_{k+1} = λ W_k + (1 − λ) W[…]
-/// where N[x] and W are the means over the new azimuths: those that were walked before see the new light,
+/// where N[x] and W are the means over the new azimuths: those that were walked before see the new field,
 /// too, but for what few azimuths make of its difference from the old (Cutkosky and Orabona 2019, eq. 2, have
 /// the same for gradients that are known from few samples). E_{k+1} is then A + (1 − A) N/W. λ = 0 is a
 /// gather by itself; here the azimuths of all gathers weigh alike, but for a fading. The last gathers walk
@@ -37,11 +37,11 @@ struct ProgressiveSolution {
 
 /// How far a solution is to go.
 struct ProgressiveGoal {
-  double error = 0.002;  ///< RMSE wanted in all, in units of the brightest light, of which ending may leave
-                         ///< up to 0.6
+  double error = 0.002;  ///< RMSE wanted in all, in units of the brightest direct irradiance, of which ending
+                         ///< may leave up to 0.6
   int last_azimuths =
       8;  ///< of each of the last two gathers; the third last has half of them, others a quarter. They
-          ///< are planned for light of some unevenness at kPlanAlbedo: what is more uneven gets more
+          ///< are planned for a radiosity of some unevenness at kPlanAlbedo: what is more uneven gets more
   double planned_unevenness = 1;
 };
 
@@ -51,17 +51,17 @@ constexpr double kPlanAlbedo = 0.8;
 /// The closed form that gathers start from, E/π of a place with the sky view factor A.
 double guess_total(double sky, double albedo);
 
-/// How much more a system's radiosity, but for what bounces where light is one's own, varies over what is
-/// seen than that of the sky at kPlanAlbedo does: both in units of their direct light. 1 where the latter is
-/// even.
-double unevenness(const LightSystem& system, const Map& sky, const Surface& surface);
+/// How much more a system's radiosity, but for what bounces where the direct irradiance is one's own, varies
+/// over what is seen than that of the sky at kPlanAlbedo does: both in units of their direct irradiance. 1
+/// where the latter is even.
+double unevenness(const IrradianceSystem& system, const Map& sky, const Surface& surface);
 
 /// Azimuths of the last two gathers of a field that is so uneven.
 int azimuths_for_unevenness(double found, const ProgressiveGoal& goal);
 
 /// Each system's solution is the same, to the last bit, whatever others are solved beside it.
 ProgressiveSolution gather_progressively(const MapGather& gather, const Map& sky,
-                                         const std::vector<LightSystem>& systems, const ProgressiveGoal& goal,
-                                         const Watch& watch);
+                                         const std::vector<IrradianceSystem>& systems,
+                                         const ProgressiveGoal& goal, const Watch& watch);
 
 }  // namespace heightlight

@@ -39,10 +39,10 @@ std::uint64_t sky_calibration_bytes(int width, int height) {
   return strips * WalkTile::kTexels * kWalks * sizeof(float);
 }
 
-SkyCalibration::SkyCalibration(const Surface& surface, const HeightMips& mips,
+SkyCalibration::SkyCalibration(const Surface& surface, const HeightPyramid& pyramid,
                                const CalibrationOptions& options)
     : surface_(surface),
-      mips_(mips),
+      pyramid_(pyramid),
       below_(options.below),
       trial_watch_{.tell = {}, .stopped = options.watch.stopped},
       strips_(
@@ -96,7 +96,7 @@ std::vector<float> SkyCalibration::walk_strips(const WalkOptions& options, Below
         sums->below = below;
         sums->steep = steep_slope(static_cast<int>(azimuths.size()) / (even ? 2 : 1));
         const auto far = std::make_unique<FarView>();
-        tile->load(surface_, mips_, options, rings, strips_[strip]);
+        tile->load(surface_, pyramid_, options, rings, strips_[strip]);
         const auto walk = [&](std::size_t first, std::size_t step) {
           for (std::size_t k = first; k < azimuths.size(); k += step) {
             look_far(*tile, azimuths[k], *far);
@@ -125,10 +125,10 @@ std::vector<float> SkyCalibration::walk_strips(const WalkOptions& options, Below
   return result;
 }
 
-SamplingError SkyCalibration::sampling_error(int fineness, float peak_share) {
+SamplingError SkyCalibration::sampling_error(int samples_per_octave, float peak_share) {
   EvenWalk even;
   const std::vector<float> walked =
-      walk_strips({kExactAzimuths, fineness, peak_share}, BelowHorizontal::sky, &even);
+      walk_strips({kExactAzimuths, samples_per_octave, peak_share}, BelowHorizontal::sky, &even);
   double squares = 0;
   double own = 0;
   for (const ExactReceiver& receiver : exact_) {
@@ -142,7 +142,7 @@ SamplingError SkyCalibration::sampling_error(int fineness, float peak_share) {
 }
 
 const std::vector<float>& SkyCalibration::many_like(const WalkOptions& options) {
-  if (many_.empty() || many_options_.fineness != options.fineness ||
+  if (many_.empty() || many_options_.samples_per_octave != options.samples_per_octave ||
       many_options_.peak_share != options.peak_share) {
     many_options_ = options;
     many_options_.azimuths = kManyAzimuths;

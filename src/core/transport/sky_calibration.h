@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "transport/calibration_frames.h"
-#include "visibility/height_mips.h"
+#include "visibility/height_pyramid.h"
 #include "visibility/horizon_sky.h"
 
 namespace heightlight {
@@ -25,15 +25,15 @@ std::uint64_t sky_calibration_bytes(int width, int height);
 /// them some that are walked exactly too.
 class SkyCalibration {
  public:
-  /// `surface` and `mips` must outlive it. The watch hears of the exact walks, and may end trials too.
+  /// `surface` and `pyramid` must outlive it. The watch hears of the exact walks, and may end trials too.
   /// `below`: what few azimuths cost is tried with that; what sampling costs, of which the horizontal hides
   /// but a part, with the sky.
-  SkyCalibration(const Surface& surface, const HeightMips& mips, const CalibrationOptions& options);
+  SkyCalibration(const Surface& surface, const HeightPyramid& pyramid, const CalibrationOptions& options);
 
   bool empty() const { return exact_.empty(); }
 
   /// RMSE of A against exact walks along the same azimuths: what sampling costs, apart from few azimuths.
-  SamplingError sampling_error(int fineness, float peak_share);
+  SamplingError sampling_error(int samples_per_octave, float peak_share);
 
   /// RMSE of A against kManyAzimuths walked alike: what few azimuths cost, apart from sampling.
   double azimuth_error(const WalkOptions& options);
@@ -71,7 +71,7 @@ class SkyCalibration {
   const std::vector<float>& many_like(const WalkOptions& options);
 
   const Surface& surface_;
-  const HeightMips& mips_;
+  const HeightPyramid& pyramid_;
   BelowHorizontal below_;
   Watch trial_watch_;  ///< is told nothing, and asked whether to go on
   std::vector<TileFrame> strips_;

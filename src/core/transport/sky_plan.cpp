@@ -23,7 +23,7 @@ constexpr int kFewestAzimuths = 4;
 constexpr float kPeakShareStep = 0.15F;
 constexpr float kHighestPeakShare = 0.75F;
 
-double azimuth_cost(int fineness) { return 5.0 + fineness; }
+double azimuth_cost(int samples_per_octave) { return 5.0 + samples_per_octave; }
 
 /// The fewest azimuths that should leave no more than the error, of a walk whose sampling errs so: the rest,
 /// `tried` at kTriedAzimuths, falls by kAzimuthOrder. More than kManyAzimuths: none of those looked at.
@@ -46,14 +46,14 @@ WalkOptions choose_sampling(SkyCalibration& calibration, double error, int azimu
   double least = std::numeric_limits<double>::infinity();
   double least_sampling = least;
   float share = 0;  // the best so far: finer walks want the same, or more
-  for (const int fineness : {8, 12, 16, 20, 24, 32, 48, 64, 96, 128}) {
+  for (const int samples_per_octave : {8, 12, 16, 20, 24, 32, 48, 64, 96, 128}) {
     // A finer walk that had no sampling error at all would not pay any more.
     const int at_least = azimuths > 0 ? azimuths : fewest_azimuths({}, tried, error);
-    if (at_least * azimuth_cost(fineness) >= least) break;
-    SamplingError sampling = calibration.sampling_error(fineness, share);
+    if (at_least * azimuth_cost(samples_per_octave) >= least) break;
+    SamplingError sampling = calibration.sampling_error(samples_per_octave, share);
     while (share < kHighestPeakShare) {
       const float more = share + kPeakShareStep;
-      const SamplingError found = calibration.sampling_error(fineness, more);
+      const SamplingError found = calibration.sampling_error(samples_per_octave, more);
       if (found.at(kMany) >= sampling.at(kMany)) break;
       sampling = found;
       share = more;
@@ -63,13 +63,13 @@ WalkOptions choose_sampling(SkyCalibration& calibration, double error, int azimu
     const double quadrature = std::sqrt(std::max(tried * tried - own, 0.5 * tried * tried));
     const int wanted = azimuths > 0 ? azimuths : fewest_azimuths(sampling, quadrature, error);
     const bool good = (azimuths > 0 || wanted <= kMany) && sampling.at(wanted) <= kSamplingShare * error;
-    const double cost = wanted * azimuth_cost(fineness);
+    const double cost = wanted * azimuth_cost(samples_per_octave);
     if (std::isfinite(least) && (!good || cost >= least)) break;
     if (!good && sampling.at(kMany) >= least_sampling) continue;
     if (good) least = cost;
     least_sampling = sampling.at(kMany);
     reached = sampling;
-    best = {2, fineness, share};
+    best = {2, samples_per_octave, share};
   }
   return best;
 }
@@ -124,7 +124,7 @@ void choose_sparse(SkyCalibration& calibration, double error, SkyPlan& plan, dou
 }  // namespace
 
 double sky_cost(const SkyPlan& plan) {
-  return plan.walk.azimuths * azimuth_cost(plan.walk.fineness) * (1 + plan.full_share) / 2;
+  return plan.walk.azimuths * azimuth_cost(plan.walk.samples_per_octave) * (1 + plan.full_share) / 2;
 }
 
 SkyPlan plan_sky(SkyCalibration& calibration, const HorizonGoal& goal) {
@@ -150,7 +150,7 @@ SkyPlan plan_sky(SkyCalibration& calibration, const HorizonGoal& goal) {
   return plan;
 }
 
-PlannedSky find_sky_for_totals(const HeightMips& mips, const HorizonGoal& goal, const SkyWanted& wanted,
+PlannedSky find_sky_for_totals(const HeightPyramid& pyramid, const HorizonGoal& goal, const SkyWanted& wanted,
                                GatherCalibration& gathers, const Watch& watch) {
   constexpr double kMostOfTotal = 0.75;
   // Gathers pass on what neighbours err alike: on bricks and fractal ground totals changed by 0.9 to 1.6
@@ -158,16 +158,17 @@ PlannedSky find_sky_for_totals(const HeightMips& mips, const HorizonGoal& goal, 
   constexpr double kPassedOn = 1.2;
   constexpr double kLeastOfError = 0.35;
   const Surface& surface = gathers.surface();
-  SkyCalibration calibration(surface, mips, {.seed = goal.seed, .watch = watch});
+  SkyCalibration calibration(surface, pyramid, {.seed = goal.seed, .watch = watch});
   PlannedSky planned;
   const auto find = [&](const HorizonGoal& aimed) {
     planned.plan = plan_sky(calibration, aimed);
-    planned.sky = walk_horizon_sky(surface, mips, planned.plan, {.wanted = wanted}, watch);
+    planned.sky = walk_horizon_sky(surface, pyramid, planned.plan, {.wanted = wanted}, watch);
     gathers.see_classes(planned.sky.sky_view_factor, kPlanAlbedo);
-    planned.lights = plan_lights(gathers, planned.sky.sky_view_factor, goal);
+    planned.radiosities = plan_radiosities(gathers, planned.sky.sky_view_factor, goal);
     planned.effect = 0;
-    for (const PlanLight& light : planned.lights) {
-      const double effect = kPassedOn * gathers.sky_effect(light.seen, light.per_sky) * planned.plan.error;
+    for (const PlanRadiosity& radiosity : planned.radiosities) {
+      const double effect =
+          kPassedOn * gathers.sky_effect(radiosity.seen, radiosity.per_sky) * planned.plan.error;
       planned.effect = std::max(planned.effect, effect);
     }
   };

@@ -17,7 +17,7 @@ struct BounceWalk {
 /// bounce, and with it what few azimuths cost. As gathers turn from one to the next, energy is not kept by
 /// itself, and what is left over of one bounce's noise must not be taken from later ones. Two sequences obey
 /// one law: E_b = F E_{b−1}, and what all bounces have left, L_b = 1 − (E₀ + … + E_b) = F L_{b−1}, for which
-/// E_b = L_{b−1} − L_b. Where light falls fast, L is followed, of which little is left; where it falls
+/// E_b = L_{b−1} − L_b. Where irradiance falls fast, L is followed, of which little is left; where it falls
 /// slowly, E, which is little beside L.
 ///
 /// The mean m of a field, weighted by how much every place is seen, is gathered without walking: it brings

@@ -28,17 +28,17 @@ void add_slice(const Eigen::Vector2d& azimuth, double mass, double angle, const 
 }
 
 /// A straight part of the profile, seen from slope to slope. Angles are integrated by Gauss's rule in pieces
-/// of a tenth, or, where the part crosses the sphere of the reach, of a thousandth; the line's distance under
-/// each angle follows from the two ends.
+/// of a tenth, or, where the part crosses the sphere of the maximum distance, of a thousandth; the line's
+/// distance under each angle follows from the two ends.
 void add_stretch(const SliceNormal& normal, const Eigen::Vector2d& azimuth, double from_slope,
-                 const VisibleStretch& stretch, const Reach& reach, ExactSky& open) {
+                 const VisibleStretch& stretch, const MaximumDistance& maximum_distance, ExactSky& open) {
   static const std::vector<QuadratureNode> kNodes = gauss_legendre(4);
   const double from = std::atan(from_slope);
   const double to = std::atan(stretch.slope);
   const double rise = stretch.slope * stretch.end_way - from_slope * stretch.begin_way;
   const double run = stretch.end_way - stretch.begin_way;
-  const bool is_nearer = stretch.begin_way / std::cos(from) < reach.distance;
-  const bool crosses = is_nearer != (stretch.end_way / std::cos(to) < reach.distance);
+  const bool is_nearer = stretch.begin_way / std::cos(from) < maximum_distance.distance;
+  const bool crosses = is_nearer != (stretch.end_way / std::cos(to) < maximum_distance.distance);
   const int pieces = std::max(1, static_cast<int>(std::ceil((to - from) / (crosses ? 1e-3 : 0.1))));
   for (int piece = 0; piece < pieces; ++piece) {
     for (const QuadratureNode& node : kNodes) {
@@ -50,7 +50,7 @@ void add_stretch(const SliceNormal& normal, const Eigen::Vector2d& azimuth, doub
       const double way = stretch.begin_way + std::clamp(t, 0.0, 1.0) * run;
       const double cosine = std::cos(elevation);
       const double sine = std::sin(elevation);
-      const double share = open_share(reach, way / cosine) * node.weight * (to - from) / pieces;
+      const double share = open_share(maximum_distance, way / cosine) * node.weight * (to - from) / pieces;
       const double mass = share * (normal.along * cosine + normal.up * sine) * cosine;
       add_slice(azimuth, mass, share * cosine, mass * Eigen::Vector2d(cosine, sine),
                 mass * Eigen::Vector2d(cosine * cosine, cosine * sine), open);
@@ -69,10 +69,10 @@ bool is_own_facet(const VisibleStretch& stretch) {
 
 }  // namespace
 
-double open_share(const Reach& reach, double distance) {
-  const double share = distance / reach.distance;
+double open_share(const MaximumDistance& maximum_distance, double distance) {
+  const double share = distance / maximum_distance.distance;
   if (share >= 1) return 1;
-  switch (reach.falloff) {
+  switch (maximum_distance.falloff) {
     case Falloff::none:
       return 0;
     case Falloff::linear:
@@ -97,8 +97,8 @@ double sky_above_horizontal(const ExactWalker& walker, int row, int column, cons
   return sky.value();
 }
 
-ExactSky find_exact_sky(const ExactWalker& walker, int row, int column, const std::optional<Reach>& reach,
-                        BelowHorizontal below) {
+ExactSky find_exact_sky(const ExactWalker& walker, int row, int column,
+                        const std::optional<MaximumDistance>& maximum_distance, BelowHorizontal below) {
   ExactSky sky;
   if (std::isnan(walker.height(row, column))) {
     constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
@@ -127,10 +127,10 @@ ExactSky find_exact_sky(const ExactWalker& walker, int row, int column, const st
     angle += solid_angle_above(plane);
     add_slice(azimuth, cosine_mass(in_slice, above, {}), solid_angle_above(above),
               bent_mass_above(in_slice, above), second_mass_above(in_slice, above), sky);
-    if (!reach) continue;
+    if (!maximum_distance) continue;
     double from = lowest;
     for (const VisibleStretch& stretch : stretches) {
-      if (!is_own_facet(stretch)) add_stretch(in_slice, azimuth, from, stretch, *reach, sky);
+      if (!is_own_facet(stretch)) add_stretch(in_slice, azimuth, from, stretch, *maximum_distance, sky);
       from = stretch.slope;
     }
   }

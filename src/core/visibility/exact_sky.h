@@ -18,16 +18,16 @@ struct ExactSky {
   std::array<double, 5> second{};
 };
 
-/// With a reach, what is seen of the surface counts as open by its own distance: nothing is shared with the
-/// horizons of sharp reaches that fast walks take the mean of.
+/// With a maximum distance, what is seen of the surface counts as open by its own distance: nothing is shared
+/// with the horizons of sharp reaches that fast walks take the mean of.
 ExactSky find_exact_sky(const ExactWalker& walker, int row, int column,
-                        const std::optional<Reach>& reach = std::nullopt,
+                        const std::optional<MaximumDistance>& maximum_distance = std::nullopt,
                         BelowHorizontal below = BelowHorizontal::sky);
 
 /// A where there is no sky below the horizontal, of what a receiver sees that is present.
 double sky_above_horizontal(const ExactWalker& walker, int row, int column, const SliceView& view);
 
-/// μ(d) of a reach: the share by which an occluder at distance d leaves its direction open.
-double open_share(const Reach& reach, double distance);
+/// μ(d) of a maximum distance: the share by which an occluder at distance d leaves its direction open.
+double open_share(const MaximumDistance& maximum_distance, double distance);
 
 }  // namespace heightlight

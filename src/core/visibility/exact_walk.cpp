@@ -34,9 +34,9 @@ std::uint64_t slice_view_bytes(int width, int height, int azimuths) {
   return static_cast<std::uint64_t>(azimuths * (stretches * sizeof(VisibleInterval) + sizeof(double)));
 }
 
-ExactWalker::ExactWalker(const Surface& surface, int azimuths, double reach)
-    : surface_(surface), azimuths_(azimuths), reach_(reach) {
-  assert(azimuths >= 1 && reach > 0);
+ExactWalker::ExactWalker(const Surface& surface, int azimuths, double maximum_distance)
+    : surface_(surface), azimuths_(azimuths), maximum_distance_(maximum_distance) {
+  assert(azimuths >= 1 && maximum_distance > 0);
   if (surface.cell_columns() > 0 && surface.cell_rows() > 0) pyramid_ = build_maximum_pyramid(surface);
   grid_ = make_ray_grid(surface, pyramid_);
 }
@@ -47,7 +47,7 @@ ExactWalker::ExactWalker(const Surface& header, int azimuths, const StoredGround
       ground_(&ground),
       pyramid_(std::move(bounds)),
       azimuths_(azimuths),
-      reach_(std::numeric_limits<double>::infinity()) {
+      maximum_distance_(std::numeric_limits<double>::infinity()) {
   grid_ = make_ray_grid(header, pyramid_);
   grid_.ground = &ground;
   grid_.first_level = first_level;
@@ -64,7 +64,7 @@ double ExactWalker::walk(int row, int column, const Eigen::Vector2d& azimuth, do
   line.height = double{height(row, column)};
   line.step_u = azimuth.x() / surface_.map.spacing.x;
   line.step_v = -azimuth.y() / surface_.map.spacing.y;  // rows run down, y up
-  line.reach = reach_;
+  line.maximum_distance = maximum_distance_;
   return walk_profile(grid_, line, least_slope, stretches);
 }
 

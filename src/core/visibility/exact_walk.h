@@ -51,16 +51,17 @@ struct SliceView {
 /// view where the ground is fractal, and fewer elsewhere.
 std::uint64_t slice_view_bytes(int width, int height, int azimuths);
 
-/// How far an exact walk goes for a reach, which is taken to lie on the map.
-inline double exact_reach(const std::optional<Reach>& reach) {
-  return reach ? reach->distance : std::numeric_limits<double>::infinity();
+/// How far an exact walk goes for a maximum distance, which is taken to lie on the map.
+inline double exact_maximum_distance(const std::optional<MaximumDistance>& maximum_distance) {
+  return maximum_distance ? maximum_distance->distance : std::numeric_limits<double>::infinity();
 }
 
 /// Walks from the vertices of a surface. Holds what all receivers share; the surface must outlive it.
 class ExactWalker {
  public:
-  /// `azimuths` ≥ 1; `reach` > 0: nothing farther away (world units, horizontally) counts.
-  ExactWalker(const Surface& surface, int azimuths, double reach = std::numeric_limits<double>::infinity());
+  /// `azimuths` ≥ 1; `maximum_distance` > 0: nothing farther away (world units, horizontally) counts.
+  ExactWalker(const Surface& surface, int azimuths,
+              double maximum_distance = std::numeric_limits<double>::infinity());
   /// On ground that is not in memory, within bounds of which there is no level below `first_level`. `header`
   /// has what the surface has, but for samples and normals.
   ExactWalker(const Surface& header, int azimuths, const StoredGround& ground, MaximumPyramid bounds,
@@ -106,7 +107,7 @@ class ExactWalker {
   MaximumPyramid pyramid_;
   RayGrid grid_;
   int azimuths_;
-  double reach_;
+  double maximum_distance_;
 };
 
 }  // namespace heightlight

@@ -8,14 +8,14 @@
 #include "base/parallel.h"
 #include "surface/blocks.h"
 #include "visibility/field_levels.h"
-#include "visibility/height_mips.h"
+#include "visibility/height_pyramid.h"
 #include "visibility/surroundings.h"
 
 namespace heightlight {
 namespace {
 
 /// Without values.
-std::vector<FieldPyramid::Level> lay_out(const WindowPlace& place, int levels, int reach) {
+std::vector<FieldPyramid::Level> lay_out(const WindowPlace& place, int levels, int margin) {
   std::vector<FieldPyramid::Level> layout;
   for (int l = 0; l <= levels; ++l) {
     const WindowBlocks blocks = window_blocks(place, l, 0);
@@ -23,7 +23,7 @@ std::vector<FieldPyramid::Level> lay_out(const WindowPlace& place, int levels, i
                       .first_column = blocks.first_column,
                       .width = blocks.width,
                       .height = blocks.height,
-                      .margin = reach,
+                      .margin = margin,
                       .values = {}});
   }
   return layout;
@@ -35,8 +35,8 @@ std::size_t value_count(const FieldPyramid::Level& level) {
 
 }  // namespace
 
-FieldPyramid::FieldPyramid(const Surface& surface, int levels, int reach)
-    : surface_(surface), levels_(lay_out(place_in_map(surface), levels, reach)) {
+FieldPyramid::FieldPyramid(const Surface& surface, int levels, int margin)
+    : surface_(surface), levels_(lay_out(place_in_map(surface), levels, margin)) {
   for (Level& level : levels_) level.values.assign(value_count(level), 0);
 }
 
@@ -120,10 +120,10 @@ int levels_to_one(int width, int height) {
   return std::bit_width(static_cast<unsigned>(std::max(width, height)) - 1);
 }
 
-std::uint64_t field_pyramid_bytes(int width, int height, int levels, int reach) {
+std::uint64_t field_pyramid_bytes(int width, int height, int levels, int margin) {
   std::uint64_t bytes = 0;
   const WindowPlace whole{.map_width = width, .map_height = height, .width = width, .height = height};
-  for (const FieldPyramid::Level& level : lay_out(whole, levels, reach))
+  for (const FieldPyramid::Level& level : lay_out(whole, levels, margin))
     bytes += value_count(level) * sizeof(float);
   return bytes;
 }

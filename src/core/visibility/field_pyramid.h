@@ -31,8 +31,8 @@ class FieldPyramid {
     }
   };
 
-  /// `levels` above the samples themselves; `reach`: blocks beyond the map's edges that reading may touch.
-  FieldPyramid(const Surface& surface, int levels, int reach);
+  /// `levels` above the samples themselves; `margin`: blocks beyond the map's edges that reading may touch.
+  FieldPyramid(const Surface& surface, int levels, int margin);
 
   /// From values per sample, those of missing ones NaN: each block is the mean of its parts, and missing
   /// samples take the value of the block around them, 0 where no level has any. Beyond the edges of a map
@@ -61,6 +61,6 @@ class FieldPyramid {
 int levels_to_one(int width, int height);
 
 /// Bytes that a pyramid of such a map takes.
-std::uint64_t field_pyramid_bytes(int width, int height, int levels, int reach);
+std::uint64_t field_pyramid_bytes(int width, int height, int levels, int margin);
 
 }  // namespace heightlight

@@ -17,8 +17,8 @@ struct MeansWorkspace {
 void walk(const Route& route, MeansWorkspace& work) {
   for (auto& sums : work.sums.of) sums.fill(0);
   for (const RouteAzimuth& azimuth : route.azimuths) {
-    if (azimuth.reach) {
-      add_horizons_within(work.tile, azimuth.table, *azimuth.reach, work.sums);
+    if (azimuth.maximum_distance) {
+      add_horizons_within(work.tile, azimuth.table, *azimuth.maximum_distance, work.sums);
     } else {
       look_far(work.tile, azimuth.table, work.far);
       add_horizons(work.tile, azimuth.table, work.far, work.sums);
@@ -28,16 +28,17 @@ void walk(const Route& route, MeansWorkspace& work) {
 
 }  // namespace
 
-std::vector<Map> walk_horizon_means(const Surface& surface, const HeightMips& mips,
+std::vector<Map> walk_horizon_means(const Surface& surface, const HeightPyramid& pyramid,
                                     const WalkOptions& options, const std::vector<HorizonMean>& means,
-                                    const std::optional<Reach>& reach, const Watch& watch) {
-  const Route route = plan_route(surface, options, walked_azimuths(options), reach);
+                                    const std::optional<MaximumDistance>& maximum_distance,
+                                    const Watch& watch) {
+  const Route route = plan_route(surface, options, walked_azimuths(options), maximum_distance);
   const std::vector<TileFrame> tiles = all_tiles(surface);
   const RouteStep step{.route = route, .tiles = tiles, .label = "horizons", .watch = watch};
   std::vector<Map> found(means.size(),
                          Map(surface.width(), surface.height(), std::numeric_limits<float>::quiet_NaN()));
   const auto count = static_cast<float>(options.azimuths);
-  for_tiles<MeansWorkspace>(surface, mips, options, step, [&](MeansWorkspace& work, std::size_t) {
+  for_tiles<MeansWorkspace>(surface, pyramid, options, step, [&](MeansWorkspace& work, std::size_t) {
     walk(route, work);
     for_present(work.tile, [&](std::size_t at, int row, int column) {
       for (std::size_t k = 0; k < means.size(); ++k)
@@ -47,15 +48,16 @@ std::vector<Map> walk_horizon_means(const Surface& surface, const HeightMips& mi
   return found;
 }
 
-std::vector<HorizonBlock> walk_horizon_blocks(const Surface& surface, const HeightMips& mips,
+std::vector<HorizonBlock> walk_horizon_blocks(const Surface& surface, const HeightPyramid& pyramid,
                                               const WalkOptions& options,
                                               const std::vector<TileFrame>& blocks,
-                                              const std::optional<Reach>& reach, const Watch& watch) {
-  const Route route = plan_route(surface, options, walked_azimuths(options), reach);
+                                              const std::optional<MaximumDistance>& maximum_distance,
+                                              const Watch& watch) {
+  const Route route = plan_route(surface, options, walked_azimuths(options), maximum_distance);
   const RouteStep step{.route = route, .tiles = blocks, .label = "trial", .watch = watch};
   std::vector<HorizonBlock> found(blocks.size());
   const auto count = static_cast<float>(options.azimuths);
-  for_tiles<MeansWorkspace>(surface, mips, options, step, [&](MeansWorkspace& work, std::size_t block) {
+  for_tiles<MeansWorkspace>(surface, pyramid, options, step, [&](MeansWorkspace& work, std::size_t block) {
     walk(route, work);
     for (std::size_t k = 0; k < kHorizonMeans; ++k) {
       for (int i = 0; i < blocks[block].rows; ++i) {

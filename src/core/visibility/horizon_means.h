@@ -8,21 +8,23 @@
 
 namespace heightlight {
 
-/// The means, per receiver, by fast walks along the azimuths of `options`: [mean asked for]. A reach is taken
-/// to be sharp. NaN where the sample is missing.
-std::vector<Map> walk_horizon_means(const Surface& surface, const HeightMips& mips,
+/// The means, per receiver, by fast walks along the azimuths of `options`: [mean asked for]. A maximum
+/// distance is taken to be sharp. NaN where the sample is missing.
+std::vector<Map> walk_horizon_means(const Surface& surface, const HeightPyramid& pyramid,
                                     const WalkOptions& options, const std::vector<HorizonMean>& means,
-                                    const std::optional<Reach>& reach, const Watch& watch = {});
+                                    const std::optional<MaximumDistance>& maximum_distance,
+                                    const Watch& watch = {});
 
 /// All means of the receivers of a square of WalkTile::kWideGroup a side, row by row.
 using HorizonBlock =
     HorizonTerms<std::array<float, std::size_t{WalkTile::kWideGroup} * WalkTile::kWideGroup>>;
 
 /// Likewise, of some such blocks alone, whose first rows and columns are multiples of their side.
-std::vector<HorizonBlock> walk_horizon_blocks(const Surface& surface, const HeightMips& mips,
+std::vector<HorizonBlock> walk_horizon_blocks(const Surface& surface, const HeightPyramid& pyramid,
                                               const WalkOptions& options,
                                               const std::vector<TileFrame>& blocks,
-                                              const std::optional<Reach>& reach, const Watch& watch);
+                                              const std::optional<MaximumDistance>& maximum_distance,
+                                              const Watch& watch);
 
 /// All means of one receiver that is present, by exact walks.
 HorizonTerms<double> exact_horizon_means(const ExactWalker& walker, int row, int column);

@@ -12,8 +12,8 @@ namespace heightlight {
 namespace {
 
 /// What rings see of level l.
-Map ring_heights(const HeightMips& mips, int l, float peak_share) {
-  const HeightMips::Level& blocks = mips.levels[static_cast<std::size_t>(l) - 1];
+Map ring_heights(const HeightPyramid& pyramid, int l, float peak_share) {
+  const HeightPyramid::Level& blocks = pyramid.levels[static_cast<std::size_t>(l) - 1];
   Map heights(blocks.mean.width, blocks.mean.height);
   for_texels(heights, [&](std::size_t i) {
     const float mean = blocks.mean.values[i];
@@ -62,9 +62,9 @@ Map lifted_heights(const FieldPyramid::Level& level, int beside) {
   return lifted;
 }
 
-/// A level of a window with a margin of `reach` blocks, out of those that hold more.
-Map with_margin(const Map& level, int margin, int reach) {
-  const int left_out = margin - reach;
+/// A level of a window with a margin of `wanted` blocks, out of those that hold more.
+Map with_margin(const Map& level, int margin, int wanted) {
+  const int left_out = margin - wanted;
   assert(left_out >= 0);
   Map part(level.width - 2 * left_out, level.height - 2 * left_out);
   for (int row = 0; row < part.height; ++row)
@@ -73,42 +73,43 @@ Map with_margin(const Map& level, int margin, int reach) {
 }
 
 void fill_from_surroundings(const Surroundings& around, int rings, float peak_share, HorizonScene& scene) {
-  const int reach = scene.heights.level(0).margin;
+  const int margin = scene.heights.level(0).margin;
   assert(static_cast<std::size_t>(rings) < around.levels.size());
   for (int l = 0; l <= rings; ++l) {
     const Surroundings::Level& level = around.levels[static_cast<std::size_t>(l)];
     const Map heights = l == 0 ? sample_heights(level.mean) : ring_heights(level, peak_share);
-    scene.heights.take_level(l, with_margin(heights, around.margin, reach));
+    scene.heights.take_level(l, with_margin(heights, around.margin, margin));
   }
   // The margin's outermost samples, which nothing but the padding of vectors reads, stay as they are.
   const Map inner = lifted_heights(scene.heights.level(0), 1);
-  Map lifted = with_margin(sample_heights(around.levels[0].mean), around.margin, reach);
+  Map lifted = with_margin(sample_heights(around.levels[0].mean), around.margin, margin);
   for (int row = 0; row < inner.height; ++row) std::copy_n(&inner(row, 0), inner.width, &lifted(row + 1, 1));
   scene.lifted.take_level(0, std::move(lifted));
 }
 
 }  // namespace
 
-int walk_reach(const WalkOptions& options) { return near_reach(options) + kReadPadding; }
+int walk_margin(const WalkOptions& options) { return near_margin(options) + kReadPadding; }
 
-HorizonScene build_horizon_scene(const Surface& surface, const HeightMips& mips, const WalkOptions& options) {
+HorizonScene build_horizon_scene(const Surface& surface, const HeightPyramid& pyramid,
+                                 const WalkOptions& options) {
   const int rings = ring_count(surface, options);
-  const int reach = walk_reach(options);
-  HorizonScene scene{{surface, rings, reach}, {surface, 0, reach}};
+  const int margin = walk_margin(options);
+  HorizonScene scene{{surface, rings, margin}, {surface, 0, margin}};
   if (surface.around) {
     fill_from_surroundings(*surface.around, rings, options.peak_share, scene);
     return scene;
   }
-  scene.heights.fill_heights(0, mips.level_0(surface));
+  scene.heights.fill_heights(0, pyramid.level_0(surface));
   for (int l = 1; l <= rings; ++l) {
-    const int known = std::min(l, static_cast<int>(mips.levels.size()));
+    const int known = std::min(l, static_cast<int>(pyramid.levels.size()));
     if (known == 0) {
-      scene.heights.fill_heights(l, mips.level_0(surface));
+      scene.heights.fill_heights(l, pyramid.level_0(surface));
     } else {
-      scene.heights.fill_heights(l, ring_heights(mips, known, options.peak_share));
+      scene.heights.fill_heights(l, ring_heights(pyramid, known, options.peak_share));
     }
   }
-  scene.lifted.fill_heights(0, lifted_heights(scene.heights.level(0), reach));
+  scene.lifted.fill_heights(0, lifted_heights(scene.heights.level(0), margin));
   return scene;
 }
 

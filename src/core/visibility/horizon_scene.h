@@ -1,7 +1,7 @@
 #pragma once
 
 #include "visibility/field_pyramid.h"
-#include "visibility/height_mips.h"
+#include "visibility/height_pyramid.h"
 #include "visibility/walk_table.h"
 
 namespace heightlight {
@@ -14,10 +14,11 @@ struct HorizonScene {
                         ///< eight neighbours has above it
 };
 
-/// `options`: their fineness says how far walks look, their peak share what rings see.
-HorizonScene build_horizon_scene(const Surface& surface, const HeightMips& mips, const WalkOptions& options);
+/// `options`: their samples per octave says how far walks look, their peak share what rings see.
+HorizonScene build_horizon_scene(const Surface& surface, const HeightPyramid& pyramid,
+                                 const WalkOptions& options);
 
 /// Texels or blocks beyond a map's edges that walks read, whole vectors included.
-int walk_reach(const WalkOptions& options);
+int walk_margin(const WalkOptions& options);
 
 }  // namespace heightlight

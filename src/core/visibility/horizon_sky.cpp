@@ -22,7 +22,8 @@ struct Workspace {
 };
 
 void walk_azimuth(const RouteAzimuth& azimuth, Workspace& work) {
-  if (azimuth.reach) return walk_sky_within(work.tile, azimuth.table, *azimuth.reach, work.sums);
+  if (azimuth.maximum_distance)
+    return walk_sky_within(work.tile, azimuth.table, *azimuth.maximum_distance, work.sums);
   look_far(work.tile, azimuth.table, work.far);
   walk_sky(work.tile, azimuth.table, work.far, work.sums);
 }
@@ -88,11 +89,11 @@ double surface_share(const WalkTile& tile, const SkySums& sums, std::size_t bloc
   return present > 0 ? std::sqrt(squares / present) : 0;
 }
 
-HorizonSky walk_horizon_sky(const Surface& surface, const HeightMips& mips, const SkyPlan& plan,
+HorizonSky walk_horizon_sky(const Surface& surface, const HeightPyramid& pyramid, const SkyPlan& plan,
                             const SkyTask& task, const Watch& watch) {
   assert(plan.full_from <= 0 || plan.walk.azimuths % 4 == 0);
   const WalkOptions& options = plan.walk;
-  const Route route = plan_route(surface, options, walked_azimuths(options), task.reach);
+  const Route route = plan_route(surface, options, walked_azimuths(options), task.maximum_distance);
   const std::vector<TileFrame> tiles = all_tiles(surface);
   const RouteStep step{.route = route, .tiles = tiles, .label = "sky", .watch = watch};
   const int width = surface.width();
@@ -100,7 +101,7 @@ HorizonSky walk_horizon_sky(const Surface& surface, const HeightMips& mips, cons
   HorizonSky sky{Map(width, height), Map(width, height), {}};
   if (task.wanted.first) sky.moments.first = Image<Vector3>(width, height);
   if (task.wanted.second) sky.moments.second = Image<std::array<float, 5>>(width, height);
-  for_tiles<Workspace>(surface, mips, options, step, [&](Workspace& work, std::size_t) {
+  for_tiles<Workspace>(surface, pyramid, options, step, [&](Workspace& work, std::size_t) {
     work.sums.wanted = task.wanted;
     work.sums.below = task.below;
     work.sums.steep = steep_slope(plan.full_from > 0 ? options.azimuths / 2 : options.azimuths);
@@ -119,16 +120,16 @@ std::uint64_t horizon_sky_bytes(const SkyWanted& wanted) {
   return sizeof(float) * (2 + (wanted.first ? 3 : 0) + (wanted.second ? 5 : 0));
 }
 
-std::vector<Map> walk_horizons(const Surface& surface, const HeightMips& mips, const WalkOptions& options,
-                               const std::vector<double>& azimuths, const std::optional<Reach>& reach,
-                               const Watch& watch) {
-  std::optional<Reach> sharp = reach;
+std::vector<Map> walk_horizons(const Surface& surface, const HeightPyramid& pyramid,
+                               const WalkOptions& options, const std::vector<double>& azimuths,
+                               const std::optional<MaximumDistance>& maximum_distance, const Watch& watch) {
+  std::optional<MaximumDistance> sharp = maximum_distance;
   if (sharp) sharp->falloff = Falloff::none;
   const Route route = plan_route(surface, options, azimuths, sharp);
   const std::vector<TileFrame> tiles = all_tiles(surface);
   const RouteStep step{.route = route, .tiles = tiles, .label = "horizons", .watch = watch};
   std::vector<Map> horizons(azimuths.size(), Map(surface.width(), surface.height()));
-  for_tiles<Workspace>(surface, mips, options, step, [&](Workspace& work, std::size_t) {
+  for_tiles<Workspace>(surface, pyramid, options, step, [&](Workspace& work, std::size_t) {
     work.sums.keep_slope = true;
     work.sums.clear();
     for (std::size_t k = 0; k < route.azimuths.size(); ++k) {

@@ -6,7 +6,7 @@
 #include "heightlight/image.h"
 #include "heightlight/visibility.h"
 #include "heightlight/watch.h"
-#include "visibility/height_mips.h"
+#include "visibility/height_pyramid.h"
 #include "visibility/sky_walk.h"
 
 namespace heightlight {
@@ -21,14 +21,14 @@ struct HorizonSky {
 /// How much more than the shares is found, how far occluders count, and what is below the horizontal.
 struct SkyTask {
   SkyWanted wanted = {};
-  std::optional<Reach> reach = {};  ///< everywhere, where absent
+  std::optional<MaximumDistance> maximum_distance = {};  ///< everywhere, where absent
   BelowHorizontal below = BelowHorizontal::sky;
 };
 
 /// By the sums so far: the RMS of 1 − A over the receivers of a tile's block that are present.
 double surface_share(const WalkTile& tile, const SkySums& sums, std::size_t block);
 
-HorizonSky walk_horizon_sky(const Surface& surface, const HeightMips& mips, const SkyPlan& plan,
+HorizonSky walk_horizon_sky(const Surface& surface, const HeightPyramid& pyramid, const SkyPlan& plan,
                             const SkyTask& task = {}, const Watch& watch = {});
 
 /// Bytes per texel of what it returns.
@@ -36,9 +36,10 @@ std::uint64_t horizon_sky_bytes(const SkyWanted& wanted);
 
 /// Elevation of the horizon above what is level at the receiver, rad, toward each azimuth (rad,
 /// counterclockwise from x), at least that of the tangent plane: [azimuth]. NaN where the sample is missing.
-/// A reach is taken to be sharp. Azimuths of `options` are not used.
-std::vector<Map> walk_horizons(const Surface& surface, const HeightMips& mips, const WalkOptions& options,
-                               const std::vector<double>& azimuths, const std::optional<Reach>& reach,
+/// A maximum distance is taken to be sharp. Azimuths of `options` are not used.
+std::vector<Map> walk_horizons(const Surface& surface, const HeightPyramid& pyramid,
+                               const WalkOptions& options, const std::vector<double>& azimuths,
+                               const std::optional<MaximumDistance>& maximum_distance,
                                const Watch& watch = {});
 
 }  // namespace heightlight

@@ -6,15 +6,16 @@
 namespace heightlight {
 namespace {
 
-/// Slope to the place where the stretch between two points leaves the sphere of the reach, if it does and
-/// ends above or beyond it; else −∞. The line p + g t meets the sphere where (1 + g²) t² + 2 p g t + p² = D².
-float exit_slope(const ProfilePoint& begin, const ProfilePoint& end, const ReachTable& reach) {
-  const bool above = begin.rise > 0 && begin.squared() > reach.squared;
-  if (begin.rise <= reach.deepest || above) return kNoHeight;
+/// Slope to the place where the stretch between two points leaves the sphere of the maximum distance, if it
+/// does and ends above or beyond it; else −∞. The line p + g t meets the sphere where (1 + g²) t² + 2 p g t +
+/// p² = D².
+float exit_slope(const ProfilePoint& begin, const ProfilePoint& end, const DistanceTable& maximum_distance) {
+  const bool above = begin.rise > 0 && begin.squared() > maximum_distance.squared;
+  if (begin.rise <= maximum_distance.deepest || above) return kNoHeight;
   const float g = (end.rise - begin.rise) / run_between(begin.way, end.way);
   const float p = begin.rise - g * begin.way;
   const float u = 1 + g * g;
-  const float root = reach.squared * u - p * p;
+  const float root = maximum_distance.squared * u - p * p;
   if (root < 0 || p >= 0) return kNoHeight;  // p ≥ 0: from the beginning on it only falls
   const float way = (std::sqrt(root) - p * g) / u;
   constexpr float kRounding = 1e-5F;
@@ -59,23 +60,23 @@ float horizon_slope(const WalkTile& tile, const AzimuthTable& azimuth, const Far
   return slope;
 }
 
-float horizon_slope_within(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach, int i,
-                           int j, float least) {
+float horizon_slope_within(const WalkTile& tile, const AzimuthTable& azimuth,
+                           const DistanceTable& maximum_distance, int i, int j, float least) {
   float slope = least;
   ProfilePoint begin;
-  for (std::size_t k = 0; k < reach.near; ++k) {
+  for (std::size_t k = 0; k < maximum_distance.near; ++k) {
     const NearSample& sample = azimuth.near[k];
     const float seen = near_slope(tile, azimuth, k, i, j);
     const float way = 1 / sample.per_distance;
-    const ProfilePoint end{way, std::max(seen * way, reach.deepest)};
-    const bool inside = end.squared() <= reach.squared;
-    slope = std::max(slope, inside ? seen : exit_slope(begin, end, reach));
+    const ProfilePoint end{way, std::max(seen * way, maximum_distance.deepest)};
+    const bool inside = end.squared() <= maximum_distance.squared;
+    slope = std::max(slope, inside ? seen : exit_slope(begin, end, maximum_distance));
     begin = end;
   }
-  for (std::size_t ring = 0; ring < reach.caps.size(); ++ring) {
-    for (std::size_t k = 0; k < reach.caps[ring].size(); ++k) {
+  for (std::size_t ring = 0; ring < maximum_distance.caps.size(); ++ring) {
+    for (std::size_t k = 0; k < maximum_distance.caps[ring].size(); ++k) {
       const float seen = ring_slope(tile, azimuth.rings[ring][k], static_cast<int>(ring) + 1, i, j);
-      slope = std::max(slope, std::min(seen, reach.caps[ring][k]));
+      slope = std::max(slope, std::min(seen, maximum_distance.caps[ring][k]));
     }
   }
   return slope;

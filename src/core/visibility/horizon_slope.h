@@ -1,7 +1,7 @@
 #pragma once
 
+#include "visibility/distance_table.h"
 #include "visibility/far_view.h"
-#include "visibility/reach_table.h"
 
 // What scalar walks look at, one receiver at a time: that in row i and column j of a tile, with the index
 // `at`. All slopes are along the azimuth, in the axes of the map.
@@ -28,9 +28,9 @@ float ring_slope(const WalkTile& tile, const RingSample& sample, int ring, int i
 float horizon_slope(const WalkTile& tile, const AzimuthTable& azimuth, const FarView& far, int i, int j,
                     float least);
 
-/// Likewise, of what lies within the reach.
-float horizon_slope_within(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach, int i,
-                           int j, float least);
+/// Likewise, of what lies within the maximum distance.
+float horizon_slope_within(const WalkTile& tile, const AzimuthTable& azimuth,
+                           const DistanceTable& maximum_distance, int i, int j, float least);
 
 /// A point of the profile: its distance and its height from the receiver's.
 struct ProfilePoint {

@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "heightlight/visibility.h"
+#include "visibility/distance_table.h"
 #include "visibility/far_view.h"
-#include "visibility/reach_table.h"
 
 // Means over azimuths of what terrain science makes of a horizon (SkyDefinition). Walks start with no horizon
 // at all, not at the tangent plane, so that it stands where the surface has it.
@@ -67,13 +67,13 @@ struct HorizonSums {
 void add_horizons_scalar(const WalkTile& tile, const AzimuthTable& azimuth, const FarView& far,
                          HorizonSums& sums);
 
-/// Likewise, with occluders only as far as a reach, which is taken to be sharp.
-void add_horizons_within_scalar(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach,
-                                HorizonSums& sums);
+/// Likewise, with occluders only as far as a maximum distance, which is taken to be sharp.
+void add_horizons_within_scalar(const WalkTile& tile, const AzimuthTable& azimuth,
+                                const DistanceTable& maximum_distance, HorizonSums& sums);
 
 /// The fast ones: receivers side by side. The same sums, as those of sky walks are.
 void add_horizons(const WalkTile& tile, const AzimuthTable& azimuth, const FarView& far, HorizonSums& sums);
-void add_horizons_within(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach,
-                         HorizonSums& sums);
+void add_horizons_within(const WalkTile& tile, const AzimuthTable& azimuth,
+                         const DistanceTable& maximum_distance, HorizonSums& sums);
 
 }  // namespace heightlight

@@ -26,10 +26,11 @@ void add_horizons_scalar(const WalkTile& tile, const AzimuthTable& azimuth, cons
             [&](int i, int j) { return horizon_slope(tile, azimuth, far, i, j, kNoHeight); });
 }
 
-void add_horizons_within_scalar(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach,
-                                HorizonSums& sums) {
-  add_terms(tile, azimuth, sums,
-            [&](int i, int j) { return horizon_slope_within(tile, azimuth, reach, i, j, kNoHeight); });
+void add_horizons_within_scalar(const WalkTile& tile, const AzimuthTable& azimuth,
+                                const DistanceTable& maximum_distance, HorizonSums& sums) {
+  add_terms(tile, azimuth, sums, [&](int i, int j) {
+    return horizon_slope_within(tile, azimuth, maximum_distance, i, j, kNoHeight);
+  });
 }
 
 }  // namespace heightlight

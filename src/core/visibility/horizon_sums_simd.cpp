@@ -54,11 +54,11 @@ void add_horizons_lanes(const WalkTile& tile, const AzimuthTable& azimuth, const
   });
 }
 
-void add_horizons_within_lanes(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach,
-                               HorizonSums& sums) {
+void add_horizons_within_lanes(const WalkTile& tile, const AzimuthTable& azimuth,
+                               const DistanceTable& maximum_distance, HorizonSums& sums) {
   add_terms(tile, azimuth, sums, [&](const LaneWalk& walk, Bunch& bunch) HWY_ATTR {
-    walk.look_near_within(reach, bunch);
-    walk.look_at_rings_within(reach, bunch);
+    walk.look_near_within(maximum_distance, bunch);
+    walk.look_at_rings_within(maximum_distance, bunch);
   });
 }
 
@@ -75,9 +75,9 @@ void add_horizons(const WalkTile& tile, const AzimuthTable& azimuth, const FarVi
   HWY_DYNAMIC_DISPATCH(add_horizons_lanes)(tile, azimuth, far, sums);
 }
 
-void add_horizons_within(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach,
-                         HorizonSums& sums) {
-  HWY_DYNAMIC_DISPATCH(add_horizons_within_lanes)(tile, azimuth, reach, sums);
+void add_horizons_within(const WalkTile& tile, const AzimuthTable& azimuth,
+                         const DistanceTable& maximum_distance, HorizonSums& sums) {
+  HWY_DYNAMIC_DISPATCH(add_horizons_within_lanes)(tile, azimuth, maximum_distance, sums);
 }
 
 }  // namespace heightlight

@@ -138,19 +138,20 @@ class Walk {
   Walk(const RayGrid& grid, const ProfileLine& line, double least_slope, std::vector<VisibleStretch>& seen)
       : grid_(grid),
         height_(line.height),
-        reach_(line.reach),
+        maximum_distance_(line.maximum_distance),
         least_slope_(least_slope),
         per_diagonal_(1 / (line.step_u - line.step_v)),
         seen_(seen),
         u_(line.step_u, line.column, grid.cell_columns),
         v_(line.step_v, line.row, grid.cell_rows) {
-    if (grid.tiles) reach_ = std::min({reach_, u_.way_across_tiles(), v_.way_across_tiles()});
+    if (grid.tiles)
+      maximum_distance_ = std::min({maximum_distance_, u_.way_across_tiles(), v_.way_across_tiles()});
   }
 
   double horizon() {
     const double above = double{grid_.highest} - height_;
     int level = 0;
-    while (stay_on_map() && way_ < reach_ && !(above <= slope_ * way_)) {
+    while (stay_on_map() && way_ < maximum_distance_ && !(above <= slope_ * way_)) {
       const int line_u = u_.exit_line(level);
       const int line_v = v_.exit_line(level);
       const bool by_column = u_.way_to(line_u) <= v_.way_to(line_v);
@@ -228,11 +229,11 @@ class Walk {
   }
 
   void look_at_segment(const Breakpoint& before, Breakpoint after, bool upper_right) {
-    if (before.way >= reach_) return;
-    if (after.way > reach_) {
-      after.rise =
-          before.rise + (after.rise - before.rise) * ((reach_ - before.way) / (after.way - before.way));
-      after.way = reach_;
+    if (before.way >= maximum_distance_) return;
+    if (after.way > maximum_distance_) {
+      after.rise = before.rise +
+                   (after.rise - before.rise) * ((maximum_distance_ - before.way) / (after.way - before.way));
+      after.way = maximum_distance_;
     }
     if (!(after.slope() > slope_)) return;
     if (std::isnan(before.rise)) return look_at_hole_edge(after);
@@ -264,7 +265,7 @@ class Walk {
   }
 
   const RayGrid& grid_;
-  double height_, reach_, least_slope_, per_diagonal_;
+  double height_, maximum_distance_, least_slope_, per_diagonal_;
   std::vector<VisibleStretch>& seen_;
   Axis u_, v_;
   Side entry_{};  // by which the present cell was entered

@@ -31,10 +31,11 @@ namespace heightlight {
 struct ProfileLine {
   int row = 0;
   int column = 0;
-  double height = 0;                                       ///< of the vertex
-  double step_u = 0;                                       ///< g_u: columns per world unit of way
-  double step_v = 0;                                       ///< g_v: rows, downwards
-  double reach = std::numeric_limits<double>::infinity();  ///< the profile ends after this way, world units
+  double height = 0;  ///< of the vertex
+  double step_u = 0;  ///< g_u: columns per world unit of way
+  double step_v = 0;  ///< g_v: rows, downwards
+  double maximum_distance =
+      std::numeric_limits<double>::infinity();  ///< the profile ends after this way, world units
 };
 
 /// A visible stretch of the profile, straight and inside one facet; or one place that stands for what is

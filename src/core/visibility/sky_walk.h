@@ -5,8 +5,8 @@
 #include <bitset>
 #include <cmath>
 
+#include "visibility/distance_table.h"
 #include "visibility/far_view.h"
-#include "visibility/reach_table.h"
 
 // What the sky sends along one azimuth slice, in closed form.
 //
@@ -78,15 +78,15 @@ struct SkySums {
 /// Walks one azimuth from every receiver of the tile. The readable one.
 void walk_sky_scalar(const WalkTile& tile, const AzimuthTable& azimuth, const FarView& far, SkySums& sums);
 
-/// Likewise, with occluders only as far as a reach. Where slopes are kept, a sharp one is taken, and the sky
-/// above its horizons.
-void walk_sky_within_scalar(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach,
-                            SkySums& sums);
+/// Likewise, with occluders only as far as a maximum distance. Where slopes are kept, a sharp one is taken,
+/// and the sky above its horizons.
+void walk_sky_within_scalar(const WalkTile& tile, const AzimuthTable& azimuth,
+                            const DistanceTable& maximum_distance, SkySums& sums);
 
 /// The fast ones: receivers side by side. The same sums, but for the rounding of fused products where the
 /// machine has them, and of the arc tangent (2e-8).
 void walk_sky(const WalkTile& tile, const AzimuthTable& azimuth, const FarView& far, SkySums& sums);
-void walk_sky_within(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach,
+void walk_sky_within(const WalkTile& tile, const AzimuthTable& azimuth, const DistanceTable& maximum_distance,
                      SkySums& sums);
 
 }  // namespace heightlight

@@ -63,7 +63,7 @@ float slope_between(float a, float b) {
   return (a * cosine_a + b * cosine_b) / (cosine_a + cosine_b);
 }
 
-/// μ at that share of the reach, in [0, 1]; of a reach with a falloff.
+/// μ at that share of the maximum distance, in [0, 1]; of a maximum distance with a falloff.
 float openness(Falloff falloff, float share) {
   if (falloff == Falloff::root) return std::sqrt(share);
   return falloff == Falloff::exponential ? exponential_openness(share, 1.0F) : share;
@@ -72,7 +72,7 @@ float openness(Falloff falloff, float share) {
 /// Mean of μ over a stretch from `begin` to `end`, seen from slope m to `seen`: that under the angles a
 /// quarter and three quarters between, weighted as they light the receiver.
 float share_of_stretch(const ProfilePoint& begin, const ProfilePoint& end, float c, float n_z, float m,
-                       float seen, const ReachTable& reach) {
+                       float seen, const DistanceTable& maximum_distance) {
   if (begin.way == 0) return 0;  // the receiver's own facet: it is hit at once
   const float g = (end.rise - begin.rise) / run_between(begin.way, end.way);
   const float p = begin.rise - g * begin.way;
@@ -82,28 +82,30 @@ float share_of_stretch(const ProfilePoint& begin, const ProfilePoint& end, float
   for (const float slope : {slope_between(m, middle), slope_between(middle, seen)}) {
     // The line p + g t is under the slope there.
     const float meets = slope < g ? -p / (g - slope) : begin.way;
-    const float way = begin.rise <= reach.deepest ? end.way : std::clamp(meets, begin.way, end.way);
+    const float way =
+        begin.rise <= maximum_distance.deepest ? end.way : std::clamp(meets, begin.way, end.way);
     const float squared = 1 + slope * slope;
-    const float share = std::min(1.0F, way * std::sqrt(squared) / reach.distance);
+    const float share = std::min(1.0F, way * std::sqrt(squared) / maximum_distance.distance);
     const float weight = std::max(0.0F, c + n_z * slope) / squared;
     weights += weight;
-    sum += weight * openness(reach.falloff, share);
+    sum += weight * openness(maximum_distance.falloff, share);
   }
   return sum / weights;
 }
 
-/// Of a sharp reach: the slopes between which a stretch lies inside its sphere, no less than m and no more
-/// than `seen`; equal where it lies outside. The line p + g t meets the sphere where (1 + g²) t² + 2 p g t +
-/// p² = D².
+/// Of a sharp maximum distance: the slopes between which a stretch lies inside its sphere, no less than m and
+/// no more than `seen`; equal where it lies outside. The line p + g t meets the sphere where (1 + g²) t² + 2
+/// p g t + p² = D².
 std::pair<float, float> slopes_inside(const ProfilePoint& begin, const ProfilePoint& end, float m, float seen,
-                                      const ReachTable& reach) {
+                                      const DistanceTable& maximum_distance) {
   if (begin.way == 0) return {m, seen};
   // What stands behind a hole is seen at its end.
-  if (begin.rise <= reach.deepest) return {m, end.squared() <= reach.squared ? seen : m};
+  if (begin.rise <= maximum_distance.deepest)
+    return {m, end.squared() <= maximum_distance.squared ? seen : m};
   const float g = (end.rise - begin.rise) / run_between(begin.way, end.way);
   const float p = begin.rise - g * begin.way;
   const float u = 1 + g * g;
-  const float root = reach.squared * u - p * p;
+  const float root = maximum_distance.squared * u - p * p;
   if (root <= 0) return {m, m};
   const float enters = (-std::sqrt(root) - p * g) / u;
   const float leaves = (std::sqrt(root) - p * g) / u;
@@ -113,9 +115,10 @@ std::pair<float, float> slopes_inside(const ProfilePoint& begin, const ProfilePo
   return {from, std::clamp(high, from, seen)};
 }
 
-/// The slice of a receiver with a reach.
-SliceSums slice_within(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach, int i,
-                       int j, float c, float n_z, float lowest, const SkyWanted& wanted) {
+/// The slice of a receiver with a maximum distance.
+SliceSums slice_within(const WalkTile& tile, const AzimuthTable& azimuth,
+                       const DistanceTable& maximum_distance, int i, int j, float c, float n_z, float lowest,
+                       const SkyWanted& wanted) {
   SliceSums open;
   float m = lowest;
   SliceSums above = integrate_slice(c, n_z, m, wanted);
@@ -123,30 +126,30 @@ SliceSums slice_within(const WalkTile& tile, const AzimuthTable& azimuth, const 
   const auto see = [&](const ProfilePoint& from, const ProfilePoint& to, float seen) {
     if (!(seen > m)) return;
     const SliceSums next = integrate_slice(c, n_z, seen, wanted);
-    if (reach.falloff == Falloff::none) {
-      const auto [low, high] = slopes_inside(from, to, m, seen, reach);
+    if (maximum_distance.falloff == Falloff::none) {
+      const auto [low, high] = slopes_inside(from, to, m, seen, maximum_distance);
       add(1, above - integrate_slice(c, n_z, low, wanted), open);
       add(1, integrate_slice(c, n_z, high, wanted) - next, open);
     } else {
-      add(share_of_stretch(from, to, c, n_z, m, seen, reach), above - next, open);
+      add(share_of_stretch(from, to, c, n_z, m, seen, maximum_distance), above - next, open);
     }
     above = next;
     m = seen;
   };
-  for (std::size_t k = 0; k < reach.near; ++k) {
+  for (std::size_t k = 0; k < maximum_distance.near; ++k) {
     const NearSample& sample = azimuth.near[k];
     const float seen = near_slope(tile, azimuth, k, i, j);
     const float way = 1 / sample.per_distance;
-    const ProfilePoint end{way, std::max(seen * way, reach.deepest)};
+    const ProfilePoint end{way, std::max(seen * way, maximum_distance.deepest)};
     see(begin, end, seen);
     begin = end;
   }
-  for (std::size_t ring = 0; ring < reach.caps.size(); ++ring) {
-    for (std::size_t k = 0; k < reach.caps[ring].size(); ++k) {
+  for (std::size_t ring = 0; ring < maximum_distance.caps.size(); ++ring) {
+    for (std::size_t k = 0; k < maximum_distance.caps[ring].size(); ++k) {
       const RingSample& sample = azimuth.rings[ring][k];
       const float seen = ring_slope(tile, sample, static_cast<int>(ring) + 1, i, j);
       const float way = 1 / sample.per_distance;
-      const ProfilePoint end{way, std::max(seen * way, reach.deepest)};
+      const ProfilePoint end{way, std::max(seen * way, maximum_distance.deepest)};
       see(begin, end, seen);
       begin = end;
     }
@@ -221,16 +224,16 @@ void walk_sky_scalar(const WalkTile& tile, const AzimuthTable& azimuth, const Fa
             [&](int i, int j, float lowest) { return horizon_slope(tile, azimuth, far, i, j, lowest); });
 }
 
-void walk_sky_within_scalar(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach,
-                            SkySums& sums) {
+void walk_sky_within_scalar(const WalkTile& tile, const AzimuthTable& azimuth,
+                            const DistanceTable& maximum_distance, SkySums& sums) {
   if (sums.keep_slope) {
     add_above(tile, azimuth, sums, [&](int i, int j, float lowest) {
-      return horizon_slope_within(tile, azimuth, reach, i, j, lowest);
+      return horizon_slope_within(tile, azimuth, maximum_distance, i, j, lowest);
     });
     return;
   }
   for_receivers(tile, azimuth, sums, [&](int i, int j, float c, float n_z, float lowest) {
-    return slice_within(tile, azimuth, reach, i, j, c, n_z, lowest, sums.wanted);
+    return slice_within(tile, azimuth, maximum_distance, i, j, c, n_z, lowest, sums.wanted);
   });
 }
 

@@ -162,7 +162,7 @@ VF openness(Falloff falloff, VF share) {
 
 /// Mean of μ over stretches seen from slope m to `seen`.
 HWY_INLINE VF share_of_stretches(const Stretch& stretch, VF c, VF n_z, VF m, VF seen,
-                                 const ReachTable& reach) {
+                                 const DistanceTable& maximum_distance) {
   if (stretch.before <= 0) return hn::Zero(kF);
   const VF one = hn::Set(kF, 1.0F);
   const VF zero = hn::Zero(kF);
@@ -171,7 +171,7 @@ HWY_INLINE VF share_of_stretches(const Stretch& stretch, VF c, VF n_z, VF m, VF 
   const VF g = hn::Mul(hn::Sub(stretch.rise, stretch.begin),
                        hn::Set(kF, 1 / run_between(stretch.before, stretch.way)));
   const VF p = hn::NegMulAdd(g, first, stretch.begin);
-  const auto behind_hole = hn::Le(stretch.begin, hn::Set(kF, reach.deepest));
+  const auto behind_hole = hn::Le(stretch.begin, hn::Set(kF, maximum_distance.deepest));
   const VF middle = slope_between(m, seen);
   VF weights = hn::Set(kF, 1e-20F);
   VF sum = zero;
@@ -184,21 +184,22 @@ HWY_INLINE VF share_of_stretches(const Stretch& stretch, VF c, VF n_z, VF m, VF 
     const VF way = hn::IfThenElse(behind_hole, last, clamped);
     const VF squared = hn::MulAdd(slope, slope, one);
     const VF distance = hn::Mul(way, hn::Sqrt(squared));
-    const VF share = hn::Min(one, hn::Div(distance, hn::Set(kF, reach.distance)));
+    const VF share = hn::Min(one, hn::Div(distance, hn::Set(kF, maximum_distance.distance)));
     const VF weight = hn::Div(hn::Max(zero, hn::MulAdd(n_z, slope, c)), squared);
     weights = hn::Add(weights, weight);
-    sum = hn::MulAdd(weight, openness(reach.falloff, share), sum);
+    sum = hn::MulAdd(weight, openness(maximum_distance.falloff, share), sum);
   }
   return hn::Div(sum, weights);
 }
 
-/// Of a sharp reach: slopes_inside of sky_walk_scalar.cpp.
+/// Of a sharp maximum distance: slopes_inside of sky_walk_scalar.cpp.
 struct SlopePair {
   VF low, high;
 };
-HWY_INLINE SlopePair slopes_inside(const Stretch& stretch, VF m, VF seen, const ReachTable& reach) {
+HWY_INLINE SlopePair slopes_inside(const Stretch& stretch, VF m, VF seen,
+                                   const DistanceTable& maximum_distance) {
   if (stretch.before <= 0) return {m, seen};
-  const VF squared = hn::Set(kF, reach.squared);
+  const VF squared = hn::Set(kF, maximum_distance.squared);
   const VF end = hn::MulAdd(stretch.rise, stretch.rise, hn::Set(kF, stretch.way * stretch.way));
   const VF whole = hn::IfThenElse(hn::Le(end, squared), seen, m);
   const VF zero = hn::Zero(kF);
@@ -218,13 +219,13 @@ HWY_INLINE SlopePair slopes_inside(const Stretch& stretch, VF m, VF seen, const 
   const VF from = hn::Min(hn::Max(low, m), seen);
   const VF to = hn::Min(hn::Max(high, from), seen);
   const auto meets = hn::Gt(root, zero);
-  const auto behind_hole = hn::Le(stretch.begin, hn::Set(kF, reach.deepest));
+  const auto behind_hole = hn::Le(stretch.begin, hn::Set(kF, maximum_distance.deepest));
   return {hn::IfThenElse(behind_hole, m, hn::IfThenElse(meets, from, m)),
           hn::IfThenElse(behind_hole, whole, hn::IfThenElse(meets, to, m))};
 }
 
-HWY_INLINE void walk_chain(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach,
-                           SkySums& sums) {
+HWY_INLINE void walk_chain(const WalkTile& tile, const AzimuthTable& azimuth,
+                           const DistanceTable& maximum_distance, SkySums& sums) {
   for_bunches(tile, azimuth, sums, [&](const LaneWalk& walk, Bunch& bunch) HWY_ATTR {
     const VF zero = hn::Zero(kF);
     std::array<VF, kBunch> n_z, c;
@@ -240,11 +241,12 @@ HWY_INLINE void walk_chain(const WalkTile& tile, const AzimuthTable& azimuth, co
       if (hn::AllFalse(kF, hn::Gt(seen, m))) return;
       const VF higher = hn::Max(m, seen);  // where nothing rises, what is between both is nothing
       const SliceSums next = integrate_sums(c[v], n_z[v], higher, sums.wanted);
-      if (reach.falloff != Falloff::none) {
-        const VF share = share_of_stretches({begin, rise, before, way}, c[v], n_z[v], m, higher, reach);
+      if (maximum_distance.falloff != Falloff::none) {
+        const VF share =
+            share_of_stretches({begin, rise, before, way}, c[v], n_z[v], m, higher, maximum_distance);
         add_between(share, above[v], next, sums.wanted, open[v]);
       } else {
-        const SlopePair inside = slopes_inside({begin, rise, before, way}, m, higher, reach);
+        const SlopePair inside = slopes_inside({begin, rise, before, way}, m, higher, maximum_distance);
         const VF one = hn::Set(kF, 1.0F);
         add_between(one, above[v], integrate_sums(c[v], n_z[v], inside.low, sums.wanted), sums.wanted,
                     open[v]);
@@ -253,7 +255,7 @@ HWY_INLINE void walk_chain(const WalkTile& tile, const AzimuthTable& azimuth, co
       above[v] = next;
       bunch.slope[v] = higher;
     };
-    walk.for_stretches(reach, bunch, see);
+    walk.for_stretches(maximum_distance, bunch, see);
     const SliceSums nothing{zero, zero, zero, zero, zero, zero};
     for (std::size_t v = 0; v < kBunch; ++v) {
       add_between(hn::Set(kF, 1.0F), above[v], nothing, sums.wanted, open[v]);
@@ -262,12 +264,12 @@ HWY_INLINE void walk_chain(const WalkTile& tile, const AzimuthTable& azimuth, co
   });
 }
 
-void walk_sky_within_lanes(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach,
-                           SkySums& sums) {
-  if (!sums.keep_slope) return walk_chain(tile, azimuth, reach, sums);
+void walk_sky_within_lanes(const WalkTile& tile, const AzimuthTable& azimuth,
+                           const DistanceTable& maximum_distance, SkySums& sums) {
+  if (!sums.keep_slope) return walk_chain(tile, azimuth, maximum_distance, sums);
   add_above(tile, azimuth, sums, [&](const LaneWalk& walk, Bunch& bunch) HWY_ATTR {
-    walk.look_near_within(reach, bunch);
-    walk.look_at_rings_within(reach, bunch);
+    walk.look_near_within(maximum_distance, bunch);
+    walk.look_at_rings_within(maximum_distance, bunch);
   });
 }
 
@@ -284,9 +286,9 @@ void walk_sky(const WalkTile& tile, const AzimuthTable& azimuth, const FarView& 
   HWY_DYNAMIC_DISPATCH(walk_sky_lanes)(tile, azimuth, far, sums);
 }
 
-void walk_sky_within(const WalkTile& tile, const AzimuthTable& azimuth, const ReachTable& reach,
+void walk_sky_within(const WalkTile& tile, const AzimuthTable& azimuth, const DistanceTable& maximum_distance,
                      SkySums& sums) {
-  HWY_DYNAMIC_DISPATCH(walk_sky_within_lanes)(tile, azimuth, reach, sums);
+  HWY_DYNAMIC_DISPATCH(walk_sky_within_lanes)(tile, azimuth, maximum_distance, sums);
 }
 
 }  // namespace heightlight

@@ -37,7 +37,7 @@ struct Surroundings {
   struct Level {
     WindowBlocks blocks;
     Image<float> mean;     ///< level 0: heights of what occludes, NaN where missing and beyond an open map's
-                           ///< edges; other levels: kNoHeight there (HeightMips)
+                           ///< edges; other levels: kNoHeight there (HeightPyramid)
     Image<float> highest;  ///< empty at level 0
   };
 

@@ -123,14 +123,15 @@ class LaneWalk {
     });
   }
 
-  /// Near samples within a reach, and the places where the stretches between them leave its sphere.
-  void look_near_within(const ReachTable& reach, Bunch& bunch) const {
+  /// Near samples within a maximum distance, and the places where the stretches between them leave its
+  /// sphere.
+  void look_near_within(const DistanceTable& maximum_distance, Bunch& bunch) const {
     std::array<VF, kBunch> begin_rise;
     begin_rise.fill(hn::Zero(kF));
     std::array<float, kBunch> begin_way{};
-    const VF squared = hn::Set(kF, reach.squared);
-    const VF deepest = hn::Set(kF, reach.deepest);
-    for_near(bunch, reach.near, [&](const NearSample& sample, std::size_t v, VF seen) HWY_ATTR {
+    const VF squared = hn::Set(kF, maximum_distance.squared);
+    const VF deepest = hn::Set(kF, maximum_distance.deepest);
+    for_near(bunch, maximum_distance.near, [&](const NearSample& sample, std::size_t v, VF seen) HWY_ATTR {
       const float way = 1 / sample.per_distance;
       const VF rise = hn::Max(hn::Mul(seen, hn::Set(kF, way)), deepest);
       const auto outside = hn::Gt(hn::MulAdd(rise, rise, hn::Set(kF, way * way)), squared);
@@ -149,34 +150,35 @@ class LaneWalk {
     });
   }
 
-  /// Rings within a reach, from every receiver for itself.
-  void look_at_rings_within(const ReachTable& reach, Bunch& bunch) const {
-    for_ring_samples(bunch, reach, [&](const RingSample&, float cap, std::size_t v, VF seen) HWY_ATTR {
-      bunch.slope[v] = hn::Max(bunch.slope[v], hn::Min(seen, hn::Set(kF, cap)));
-    });
+  /// Rings within a maximum distance, from every receiver for itself.
+  void look_at_rings_within(const DistanceTable& maximum_distance, Bunch& bunch) const {
+    for_ring_samples(bunch, maximum_distance,
+                     [&](const RingSample&, float cap, std::size_t v, VF seen) HWY_ATTR {
+                       bunch.slope[v] = hn::Max(bunch.slope[v], hn::Min(seen, hn::Set(kF, cap)));
+                     });
   }
 
   /// Calls see(v, begin, before, rise, way, slope) for every stretch of the profile that begins within a
-  /// reach: from `before`, where it is `begin` higher than the receiver, to `way`, where it is `rise` higher
-  /// and seen under the slope.
+  /// maximum distance: from `before`, where it is `begin` higher than the receiver, to `way`, where it is
+  /// `rise` higher and seen under the slope.
   template <class See>
-  HWY_INLINE void for_stretches(const ReachTable& reach, const Bunch& bunch, See&& see) const {
+  HWY_INLINE void for_stretches(const DistanceTable& maximum_distance, const Bunch& bunch, See&& see) const {
     std::array<VF, kBunch> begin_rise;
     begin_rise.fill(hn::Zero(kF));
     std::array<float, kBunch> begin_way{};
-    const VF deepest = hn::Set(kF, reach.deepest);
+    const VF deepest = hn::Set(kF, maximum_distance.deepest);
     const auto end_at = [&](float way, std::size_t v, VF seen) HWY_ATTR {
       const VF rise = hn::Max(hn::Mul(seen, hn::Set(kF, way)), deepest);
       see(v, begin_rise[v], begin_way[v], rise, way, seen);
       begin_rise[v] = rise;
       begin_way[v] = way;
     };
-    for_near(bunch, reach.near, [&](const NearSample& sample, std::size_t v, VF seen) HWY_ATTR {
+    for_near(bunch, maximum_distance.near, [&](const NearSample& sample, std::size_t v, VF seen) HWY_ATTR {
       end_at(1 / sample.per_distance, v, seen);
     });
-    for_ring_samples(bunch, reach, [&](const RingSample& sample, float, std::size_t v, VF seen) HWY_ATTR {
-      end_at(1 / sample.per_distance, v, seen);
-    });
+    for_ring_samples(bunch, maximum_distance,
+                     [&](const RingSample& sample, float, std::size_t v, VF seen)
+                         HWY_ATTR { end_at(1 / sample.per_distance, v, seen); });
   }
 
   /// The lines that the groups of the bunch keep.
@@ -261,14 +263,16 @@ class LaneWalk {
     return hn::IfThenElse(meets, hn::Add(hn::Div(p, at), g), hn::Set(kF, kNoHeight));
   }
 
-  /// Calls see(sample, cap, v, slope) for the ring samples within a reach and each vector of the bunch. Each
-  /// receiver looks at its own block: neighbours in a vector share some, which is a permutation of a load.
+  /// Calls see(sample, cap, v, slope) for the ring samples within a maximum distance and each vector of the
+  /// bunch. Each receiver looks at its own block: neighbours in a vector share some, which is a permutation
+  /// of a load.
   template <class See>
-  HWY_INLINE void for_ring_samples(const Bunch& bunch, const ReachTable& reach, See&& see) const {
-    for (std::size_t ring = 0; ring < reach.caps.size(); ++ring) {
+  HWY_INLINE void for_ring_samples(const Bunch& bunch, const DistanceTable& maximum_distance,
+                                   See&& see) const {
+    for (std::size_t ring = 0; ring < maximum_distance.caps.size(); ++ring) {
       const HeightWindow& window = tile_.windows[ring + 1];
       const int level = window.level;
-      for (std::size_t k = 0; k < reach.caps[ring].size(); ++k) {
+      for (std::size_t k = 0; k < maximum_distance.caps[ring].size(); ++k) {
         const RingSample& sample = azimuth_.rings[ring][k];
         const int first = tile_.map_column + bunch.column + sample.column;
         const float* column = window.values.data() + (first >> level) - window.first_column;
@@ -279,7 +283,8 @@ class LaneWalk {
           const int row = (tile_.map_row + bunch.row + static_cast<int>(v) + sample.row) >> level;
           const float* blocks_of_row = column + std::ptrdiff_t{row - window.first_row} * window.width;
           const VF height = hn::TableLookupLanes(hn::LoadU(kF, blocks_of_row), order);
-          see(sample, reach.caps[ring][k], v, hn::Mul(hn::Sub(height, bunch.height[v]), per_distance));
+          see(sample, maximum_distance.caps[ring][k], v,
+              hn::Mul(hn::Sub(height, bunch.height[v]), per_distance));
         }
       }
     }

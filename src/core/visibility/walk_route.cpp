@@ -16,17 +16,17 @@ std::vector<TileFrame> all_tiles(const Surface& surface) {
 }
 
 Route plan_route(const Surface& surface, const WalkOptions& options, const std::vector<double>& azimuths,
-                 const std::optional<Reach>& reach) {
+                 const std::optional<MaximumDistance>& maximum_distance) {
   Route route{{}, ring_count(surface, options)};
-  if (reach) {
-    check_reach(*reach);
-    route.rings = rings_within(surface, options, reach->distance, route.rings);
+  if (maximum_distance) {
+    check_maximum_distance(*maximum_distance);
+    route.rings = rings_within(surface, options, maximum_distance->distance, route.rings);
   }
   for (const double azimuth : azimuths) {
     RouteAzimuth& made = route.azimuths.emplace_back();
     made.table = make_azimuth_table(surface, options, azimuth);
     made.table.rings.resize(static_cast<std::size_t>(route.rings));
-    if (reach) made.reach = make_reach_table(made.table, *reach);
+    if (maximum_distance) made.maximum_distance = make_distance_table(made.table, *maximum_distance);
   }
   return route;
 }

@@ -6,15 +6,15 @@
 
 #include "base/parallel.h"
 #include "heightlight/watch.h"
-#include "visibility/reach_table.h"
+#include "visibility/distance_table.h"
 #include "visibility/walk_tile.h"
 
 namespace heightlight {
 
-/// An azimuth, and what of it lies within the reach.
+/// An azimuth, and what of it lies within the maximum distance.
 struct RouteAzimuth {
   AzimuthTable table;
-  std::optional<ReachTable> reach;
+  std::optional<DistanceTable> maximum_distance;
 };
 
 /// Azimuths to walk along, with everything that all tiles share.
@@ -26,9 +26,9 @@ struct Route {
 /// φ_k of the options, k = 0 … K − 1.
 std::vector<double> walked_azimuths(const WalkOptions& options);
 
-/// Along such azimuths, rad. Throws UsageError as check_reach does.
+/// Along such azimuths, rad. Throws UsageError as check_maximum_distance does.
 Route plan_route(const Surface& surface, const WalkOptions& options, const std::vector<double>& azimuths,
-                 const std::optional<Reach>& reach);
+                 const std::optional<MaximumDistance>& maximum_distance);
 
 /// All tiles of a map.
 std::vector<TileFrame> all_tiles(const Surface& surface);
@@ -44,7 +44,7 @@ struct RouteStep {
 /// Loads tile after tile into a workspace's `tile` and calls visit(workspace, index) for each, on all
 /// threads.
 template <class Workspace, class Visit>
-void for_tiles(const Surface& surface, const HeightMips& mips, const WalkOptions& options,
+void for_tiles(const Surface& surface, const HeightPyramid& pyramid, const WalkOptions& options,
                const RouteStep& step, Visit&& visit) {
   std::vector<std::unique_ptr<Workspace>> workspaces(static_cast<std::size_t>(thread_count()));
   const auto count = static_cast<std::int64_t>(step.tiles.size());
@@ -55,7 +55,7 @@ void for_tiles(const Surface& surface, const HeightMips& mips, const WalkOptions
         const auto tile = static_cast<std::size_t>(i);
         std::unique_ptr<Workspace>& work = workspaces[static_cast<std::size_t>(omp_get_thread_num())];
         if (!work) work = std::make_unique<Workspace>();
-        work->tile.load(surface, mips, options, step.route.rings, step.tiles[tile]);
+        work->tile.load(surface, pyramid, options, step.route.rings, step.tiles[tile]);
         visit(*work, tile);
       },
       &progress);

@@ -68,12 +68,14 @@ void add_crossings(double rate, double from, double to, int step, std::vector<Cr
 
 /// Ways up to which all breakpoints are samples, all crossings with the rows or columns, and every other.
 struct NearWays {
-  double exact, dense, reach;
+  double exact, dense, last;
 };
-NearWays near_ways(int fineness) { return {0.5 * fineness, 1.5 * fineness, 4.0 * fineness}; }
+NearWays near_ways(int samples_per_octave) {
+  return {0.5 * samples_per_octave, 1.5 * samples_per_octave, 4.0 * samples_per_octave};
+}
 
 std::vector<NearSample> near_samples(const GridDirection& g, const NearWays& ways) {
-  const auto [exact, dense, reach] = ways;
+  const auto [exact, dense, last] = ways;
   std::vector<Crossing> crossings;
   const auto column = [&](double t, int i) { return at_column(g, t, i); };
   const auto row = [&](double t, int i) { return at_row(g, t, i); };
@@ -83,10 +85,10 @@ std::vector<NearSample> near_samples(const GridDirection& g, const NearWays& way
   add_crossings(g.u - g.v, 0, exact, 1, crossings, diagonal);
   if (std::fabs(g.u) >= std::fabs(g.v)) {
     add_crossings(g.u, exact, dense, 1, crossings, column);
-    add_crossings(g.u, dense, reach, 2, crossings, column);
+    add_crossings(g.u, dense, last, 2, crossings, column);
   } else {
     add_crossings(g.v, exact, dense, 1, crossings, row);
-    add_crossings(g.v, dense, reach, 2, crossings, row);
+    add_crossings(g.v, dense, last, 2, crossings, row);
   }
   std::stable_sort(crossings.begin(), crossings.end(),
                    [](const Crossing& a, const Crossing& b) { return a.t < b.t; });
@@ -95,10 +97,10 @@ std::vector<NearSample> near_samples(const GridDirection& g, const NearWays& way
   return samples;
 }
 
-std::vector<RingSample> ring_samples(const GridDirection& g, int fineness, int ring) {
+std::vector<RingSample> ring_samples(const GridDirection& g, int samples_per_octave, int ring) {
   std::vector<RingSample> samples;
-  for (int i = 0; i < fineness; ++i) {
-    const double t = std::ldexp(fineness + i + 0.5, ring + 1);
+  for (int i = 0; i < samples_per_octave; ++i) {
+    const double t = std::ldexp(samples_per_octave + i + 0.5, ring + 1);
     samples.push_back({static_cast<float>(t), static_cast<int>(std::lround(t * g.v)),
                        static_cast<int>(std::lround(t * g.u)), static_cast<float>(1 / (t * g.length))});
   }
@@ -125,9 +127,9 @@ void check_azimuths(int azimuths) {
                    "must be an even number from 2 to " + std::to_string(kMostAzimuths));
 }
 
-int near_window_width(const WalkOptions& options) { return kTileSide + 2 + 2 * near_reach(options); }
+int near_window_width(const WalkOptions& options) { return kTileSide + 2 + 2 * near_margin(options); }
 
-int near_reach(const WalkOptions& options) { return 4 * options.fineness + 2; }
+int near_margin(const WalkOptions& options) { return 4 * options.samples_per_octave + 2; }
 
 int ring_count(const Surface& surface, const WalkOptions& options) {
   constexpr double kLeastSlope = 0.004;
@@ -138,7 +140,8 @@ int ring_count(const Surface& surface, const WalkOptions& options) {
   const double rows = place.map_height;
   const double farthest = surface.tiles() ? 4 * std::max(columns, rows) : std::hypot(columns, rows);
   int rings = 0;
-  for (double t = 4.0 * options.fineness; t < farthest && relief > kLeastSlope * t * finest; t *= 2) ++rings;
+  for (double t = 4.0 * options.samples_per_octave; t < farthest && relief > kLeastSlope * t * finest; t *= 2)
+    ++rings;
   return rings;
 }
 
@@ -149,7 +152,7 @@ AzimuthTable make_azimuth_table(const Surface& surface, const WalkOptions& optio
   table.world_y = static_cast<float>(snapped(std::sin(azimuth_rad)));
   table.along_column = static_cast<float>(g.u * g.length);
   table.along_row = static_cast<float>(g.v * g.length);
-  const NearWays ways = near_ways(options.fineness);
+  const NearWays ways = near_ways(options.samples_per_octave);
   table.near = near_samples(g, ways);
   while (table.lifted < table.near.size() && table.near[table.lifted].way <= ways.dense) ++table.lifted;
   for (NearSample& sample : table.near) {
@@ -157,7 +160,8 @@ AzimuthTable make_azimuth_table(const Surface& surface, const WalkOptions& optio
       sample.offset[s] = sample.row[s] * near_window_width(options) + sample.column[s];
   }
   const int rings = ring_count(surface, options);
-  for (int ring = 1; ring <= rings; ++ring) table.rings.push_back(ring_samples(g, options.fineness, ring));
+  for (int ring = 1; ring <= rings; ++ring)
+    table.rings.push_back(ring_samples(g, options.samples_per_octave, ring));
   return table;
 }
 

@@ -22,7 +22,7 @@
 //     into. Blocks as wide as the samples' distance would leave no gaps, but be twice as far beside the line
 //     of sight: .00062 on brick and .00041 on fBm, all up to 4ν exact, not .00037 and .00028.
 //
-// ν is the walk's fineness; its cost grows like ν log(N / ν).
+// ν is the walk's samples per octave; its cost grows like ν log(N / ν).
 
 namespace heightlight {
 
@@ -78,7 +78,7 @@ int near_window_width(const WalkOptions& options);
 constexpr int ring_level(int ring) { return ring; }
 
 /// Texels beside a tile that its near samples reach.
-int near_reach(const WalkOptions& options);
+int near_margin(const WalkOptions& options);
 
 /// The table of an azimuth. Rings go on while the map's relief, seen from the ring's beginning, spans a slope
 /// of more than 0.004, at most to four times the map's size, and for `open` maps to the far corner.

@@ -33,12 +33,12 @@ ReceiverGroups span_groups(const WalkTile& tile, int side) {
   return groups;
 }
 
-/// Places a window so that it reaches `reach` blocks beyond the tile on all sides.
-void place(HeightWindow& window, int level, int reach, int row, int column) {
-  const int across = (WalkTile::kSide >> level) + 2 + 2 * reach;
+/// Places a window so that it reaches `margin` blocks beyond the tile on all sides.
+void place(HeightWindow& window, int level, int margin, int row, int column) {
+  const int across = (WalkTile::kSide >> level) + 2 + 2 * margin;
   window.level = level;
-  window.first_row = (row >> level) - reach;
-  window.first_column = (column >> level) - reach;
+  window.first_row = (row >> level) - margin;
+  window.first_column = (column >> level) - margin;
   window.width = across;
   window.height = across;
   window.values.resize(static_cast<std::size_t>(across) * static_cast<std::size_t>(across) + kReadPadding);
@@ -126,14 +126,14 @@ void fill_from(const Surroundings& around, const Blend& blend, HeightWindow& win
   }
 }
 
-void fill_blocks(HeightWindow& window, const HeightMips& mips, const Surface& surface, float peak_share,
+void fill_blocks(HeightWindow& window, const HeightPyramid& pyramid, const Surface& surface, float peak_share,
                  float reference) {
-  if (mips.levels.empty()) {
+  if (pyramid.levels.empty()) {
     std::fill(window.values.begin(), window.values.end(), surface.map.height.values[0] - reference);
     return;
   }
-  const int level = std::min(window.level, static_cast<int>(mips.levels.size()));
-  const HeightMips::Level& blocks = mips.levels[static_cast<std::size_t>(level) - 1];
+  const int level = std::min(window.level, static_cast<int>(pyramid.levels.size()));
+  const HeightPyramid::Level& blocks = pyramid.levels[static_cast<std::size_t>(level) - 1];
   const std::vector<int> rows =
       block_sources(window.first_row, window.height, window.level, surface.height(), surface.tiles());
   const std::vector<ColumnRun> runs = column_runs(
@@ -206,8 +206,8 @@ void ReceiverTile::load_receivers(const Surface& surface, float reference, const
   }
 }
 
-void WalkTile::load(const Surface& surface, const HeightMips& mips, const WalkOptions& options, int rings,
-                    const TileFrame& frame) {
+void WalkTile::load(const Surface& surface, const HeightPyramid& pyramid, const WalkOptions& options,
+                    int rings, const TileFrame& frame) {
   const int row = frame.first_row;
   const int column = frame.first_column;
   const Image<float>& map = surface.map.height;
@@ -224,20 +224,20 @@ void WalkTile::load(const Surface& surface, const HeightMips& mips, const WalkOp
   wide_groups = span_groups(*this, kWideGroup);
   windows.resize(static_cast<std::size_t>(rings) + 1);
   const Surroundings* around = surface.around.get();
-  place(windows[0], 0, near_reach(options), map_row, map_column);
+  place(windows[0], 0, near_margin(options), map_row, map_column);
   if (around) {
     fill_from(*around, {options.peak_share, reference}, windows[0]);
   } else {
-    fill_nearest(windows[0], mips.level_0(surface), surface.tiles(), reference);
+    fill_nearest(windows[0], pyramid.level_0(surface), surface.tiles(), reference);
   }
   lift(windows[0], lifted);
   for (int ring = 1; ring <= rings; ++ring) {
     HeightWindow& window = windows[static_cast<std::size_t>(ring)];
-    place(window, ring_level(ring), 4 * options.fineness + 1, map_row, map_column);
+    place(window, ring_level(ring), 4 * options.samples_per_octave + 1, map_row, map_column);
     if (around) {
       fill_from(*around, {options.peak_share, reference}, window);
     } else {
-      fill_blocks(window, mips, surface, options.peak_share, reference);
+      fill_blocks(window, pyramid, surface, options.peak_share, reference);
     }
   }
 }

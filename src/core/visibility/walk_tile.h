@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "visibility/height_mips.h"
+#include "visibility/height_pyramid.h"
 #include "visibility/walk_table.h"
 
 namespace heightlight {
@@ -111,7 +111,7 @@ struct WalkTile : ReceiverTile {
                         ///< neighbours has above it; not at the window's own edge
 
   /// Copies everything that `rings` rings of walks with these options may read. Reuses its memory.
-  void load(const Surface& surface, const HeightMips& mips, const WalkOptions& options, int rings,
+  void load(const Surface& surface, const HeightPyramid& pyramid, const WalkOptions& options, int rings,
             const TileFrame& frame);
 };
 

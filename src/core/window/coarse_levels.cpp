@@ -31,11 +31,11 @@ Map coarsened(Map& fine) {
 
 }  // namespace
 
-CoarseHeights complete_heights(int first, HeightMips::Level finest) {
+CoarseHeights complete_heights(int first, HeightPyramid::Level finest) {
   CoarseHeights coarse{.first = first, .levels = {}};
   coarse.levels.push_back(std::move(finest));
   while (coarse.levels.back().mean.size() > 1) {
-    HeightMips::Level next = coarsen_heights(coarse.levels.back().mean, coarse.levels.back().highest);
+    HeightPyramid::Level next = coarsen_heights(coarse.levels.back().mean, coarse.levels.back().highest);
     coarse.levels.push_back(std::move(next));
   }
   return coarse;
@@ -63,12 +63,12 @@ Map read_occluders(const StoredMap& heights, Boundary boundary, const MapRect& r
   return without_border(occluding_heights(part));
 }
 
-HeightMips::Level coarse_heights_of(const StoredMap& heights, Boundary boundary, const WindowPlace& place,
-                                    int level) {
+HeightPyramid::Level coarse_heights_of(const StoredMap& heights, Boundary boundary, const WindowPlace& place,
+                                       int level) {
   assert(level >= 1 && (place.first_row & ((1 << level) - 1)) == 0);
   const Map samples =
       read_occluders(heights, boundary, {place.first_row, place.first_column, place.height, place.width});
-  HeightMips::Level blocks = coarsen_heights(samples, samples);
+  HeightPyramid::Level blocks = coarsen_heights(samples, samples);
   for (int l = 1; l < level; ++l) blocks = coarsen_heights(blocks.mean, blocks.highest);
   return blocks;
 }

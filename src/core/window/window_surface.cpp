@@ -45,7 +45,7 @@ void add_fine_levels(const MapParts& map, const WindowPlace& place, int levels, 
   Map highest;
   for (int l = 0; l < fine; ++l) {
     if (l > 0) {
-      HeightMips::Level next = coarsen_heights(mean, l == 1 ? mean : highest);
+      HeightPyramid::Level next = coarsen_heights(mean, l == 1 ? mean : highest);
       mean = std::move(next.mean);
       highest = std::move(next.highest);
       at = {at.first_row / 2, at.first_column / 2, at.rows / 2, at.columns / 2};
@@ -73,7 +73,7 @@ void add_coarse_levels(const MapParts& map, const WindowPlace& place, int levels
     const WindowBlocks blocks = window_blocks(place, l, around.margin);
     const BlockSources sources(blocks, l, place, map.boundary == Boundary::tile);
     const auto last = static_cast<int>(map.coarse.levels.size()) - 1;
-    const HeightMips::Level& whole =
+    const HeightPyramid::Level& whole =
         map.coarse.levels[static_cast<std::size_t>(std::min(l - map.coarse.first, last))];
     Surroundings::Level level{blocks, Map(blocks.width, blocks.height, kNoHeight),
                               Map(blocks.width, blocks.height, kNoHeight)};
@@ -183,7 +183,7 @@ Map parents_of(const CoarseField& coarse, const MapRect& at, const Surface& wind
 
 }  // namespace
 
-WindowReach window_reach(const MapParts& map, const WalkOptions& options) {
+WindowView window_view(const MapParts& map, const WalkOptions& options) {
   Surface whole;  // of which rings ask no more than these
   whole.map.spacing = map.spacing;
   whole.map.boundary = map.boundary;
@@ -191,17 +191,17 @@ WindowReach window_reach(const MapParts& map, const WalkOptions& options) {
   whole.highest = map.highest;
   whole.map.height.width = map.heights.width();
   whole.map.height.height = map.heights.height();
-  return {.margin = walk_reach(options), .levels = ring_count(whole, options) + 1};
+  return {.margin = walk_margin(options), .levels = ring_count(whole, options) + 1};
 }
 
-Surface window_surface(const MapParts& map, const WindowPlace& place, const WindowReach& reach) {
+Surface window_surface(const MapParts& map, const WindowPlace& place, const WindowView& view) {
   assert(place.first_row % kTileSide == 0 && place.first_column % kTileSide == 0);
   Surface surface = bare_surface(map, place);
   auto around = std::make_shared<Surroundings>();
   around->place = place;
-  around->margin = reach.margin;
-  add_fine_levels(map, place, reach.levels, *around);
-  add_coarse_levels(map, place, reach.levels, *around);
+  around->margin = view.margin;
+  add_fine_levels(map, place, view.levels, *around);
+  add_coarse_levels(map, place, view.levels, *around);
   surface.around = std::move(around);
   return surface;
 }

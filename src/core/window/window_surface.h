@@ -23,17 +23,17 @@ struct MapParts {
   const CoarseHeights& coarse;
 };
 
-/// How far a window is to look: walk_reach of all its walks, and one more than their rings.
-struct WindowReach {
+/// How far a window is to look: walk_margin of all its walks, and one more than their rings.
+struct WindowView {
   int margin = 0;
   int levels = 0;
 };
 
 /// That of walks with these options, on the map.
-WindowReach window_reach(const MapParts& map, const WalkOptions& options);
+WindowView window_view(const MapParts& map, const WalkOptions& options);
 
 /// A map that tiles has sides that the blocks of its finest coarse level divide.
-Surface window_surface(const MapParts& map, const WindowPlace& place, const WindowReach& reach);
+Surface window_surface(const MapParts& map, const WindowPlace& place, const WindowView& view);
 
 /// A field on the map, NaN where missing, as gathers from the window read it: `layout` is a pyramid made for
 /// the window's surface.

@@ -98,7 +98,7 @@ struct PackedTexture {
 };
 
 /// Light that is no even sky's.
-struct BakedLight {
+struct GivenIrradiance {
   std::vector<TexelVector> channels = {};  ///< E₀/π: one, or red, green and blue
   std::string description = {};
   double rmse = 0;  ///< of it, where that was found
@@ -116,14 +116,14 @@ struct BakeOptions {
   std::string name = "{stem}_{map}";  ///< of files, without extension; {material}, too (material_name)
   bool uniform_ao = false;            ///< α in place of A
   Albedo albedo{.constant = {0.5}};   ///< of multibounce
-  std::optional<Reach> reach =
+  std::optional<MaximumDistance> maximum_distance =
       {};  ///< of ao, bent normals and cones, horizons, sh and definitions; not of multibounce, ao_n
   bool y_down = false;       ///< as Direct3D has it, where OpenGL has y up
   bool bent_length = false;  ///< alpha of bent normals: |(3/2π) ∫ V ω cosθ dω|, 1 = open
   int horizon_azimuths = 4;  ///< N: toward 2π k/N
   /// From where these count; default `north` where the map is open, else `math`, toward the y of the files
   std::optional<AzimuthConvention> azimuth_convention = {};
-  Gloss gloss = {};            ///< of specular_occlusion, which knows no reach
+  Gloss gloss = {};            ///< of specular_occlusion, which knows no maximum distance
   Vector3 view = {0, 0, 1};    ///< and toward the viewer; world axes, z > 0
   double normal_strength = 1;  ///< of `normal`: slopes are multiplied by it; 1 is the surface's own
   /// Standard deviation of the Gaussian mean that curvature and cavity are of, in world units, ≥ 0 (of a
@@ -141,7 +141,8 @@ struct BakeOptions {
   std::uint64_t seed = 1;          ///< of calibration, check and dither
   std::uint64_t memory = ~0ULL;    ///< bytes that all of it may take
   std::size_t light_channels = 0;  ///< > 0: multibounce and direct are of another light than an even sky
-  std::function<BakedLight(const Surface&)> find_light = {};  ///< which this finds, with so many channels
+  std::function<GivenIrradiance(const Surface&)> find_light =
+      {};  ///< which this finds, with so many channels
   /// Where it is set, it writes NAME_report.html, a page for browsers.
   std::function<void(const std::filesystem::path&, const ReportedBake&)> write_report = {};
   /// Draws NAME_sheet.png; none where empty. It sees ao, bent normals and multibounce, which are found for
@@ -182,8 +183,8 @@ struct BakeOutcome {
 
 /// Makes the maps of a heightmap and writes them as NAME_ao.png …, with NAME_bake.json, which says what each
 /// file holds, how it was found and what it errs by; all or none. One visibility pass serves all of them (two
-/// where both a reach and bounces are wanted; toward the azimuths of horizon maps more). No input is
-/// replaced. Throws UsageError for options that contradict each other, Error when it can't be done.
+/// where both a maximum distance and bounces are wanted; toward the azimuths of horizon maps more). No input
+/// is replaced. Throws UsageError for options that contradict each other, Error when it can't be done.
 BakeOutcome bake_material(LoadedHeightmap loaded, const BakeOptions& options, const BakeTarget& target);
 
 /// The same of a material that was found (material.h), by the same options.

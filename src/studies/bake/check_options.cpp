@@ -8,7 +8,7 @@
 #include "bake/texel_encoding.h"
 #include "base/digits.h"
 #include "heightlight/error.h"
-#include "visibility/reach_table.h"
+#include "visibility/distance_table.h"
 
 namespace heightlight {
 namespace {
@@ -59,7 +59,7 @@ void check_bake_options(const BakeOptions& options) {
   if (is_wanted(options, MaterialMap::ao_n) && options.light_channels > 0) {
     throw UsageError("maps", "", "ao-n is of an even sky; bake it without a light of your own");
   }
-  if (options.reach) check_reach(*options.reach);
+  if (options.maximum_distance) check_maximum_distance(*options.maximum_distance);
   if (!(options.error > 0) || options.error > 1) {
     throw UsageError("error", std::to_string(options.error), "must be above 0, and 1 at most");
   }

@@ -59,7 +59,7 @@ Request material_request(const BakeOptions& options, AzimuthConvention conventio
   wanted.moments.first =
       wanted.moments.second || has(MaterialMap::bent_normal) || has(MaterialMap::bent_cone);
   wanted.sky = wanted.moments.first || has(MaterialMap::ao);
-  wanted.reach = options.reach;
+  wanted.maximum_distance = options.maximum_distance;
   wanted.below = options.below;
   for (const SkyDefinitionFacts& facts : sky_definitions()) {
     if (has(map_of(facts.definition))) wanted.definitions.push_back(facts.definition);

@@ -13,11 +13,11 @@ namespace heightlight {
 /// every map follows texel by texel.
 struct Material {
   const Surface* surface = nullptr;
-  Results results;             ///< the sky as far as the reach; horizons in the axes of the files
+  Results results;             ///< the sky as far as the maximum distance; horizons in the axes of the files
   SpecularOcclusion specular;  ///< where it is wanted
   LocalMaps local;             ///< those that are wanted
   std::vector<Map> totals;     ///< E/π, per channel of the albedo or of the light
-  BakedLight light;            ///< without channels where it is an even sky's
+  GivenIrradiance light;       ///< without channels where it is an even sky's
   std::vector<ModelError> model_errors;
 };
 

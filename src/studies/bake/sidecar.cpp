@@ -91,10 +91,10 @@ Json describe_conventions(const BakeOptions& options, const Heightmap& map) {
           {"rows", "from the top"}};
 }
 
-Json describe_reach(const BakeOptions& options) {
-  if (!options.reach) return "unlimited";
-  return {{"max_distance", options.reach->distance},
-          {"falloff", to_string(options.reach->falloff)},
+Json describe_maximum_distance(const BakeOptions& options) {
+  if (!options.maximum_distance) return "unlimited";
+  return {{"max_distance", options.maximum_distance->distance},
+          {"falloff", to_string(options.maximum_distance->falloff)},
           {"applies_to",
            "ao, bent-normal, bent-cone, sh, svf-tilted, terrain-view-factor; horizon and all other "
            "definitions (without falloff)"},
@@ -181,7 +181,7 @@ void write_sidecar(const std::filesystem::path& path, const BakeOptions& options
   for (const Json& entry : facts.former) json["files"].push_back(entry);
   if (!options.own.empty()) json["packed_from"] = describe_own(options.own);
   json["conventions"] = describe_conventions(options, facts.map.header);
-  json["reach"] = describe_reach(options);
+  json["reach"] = describe_maximum_distance(options);
   if (is_wanted(options, MaterialMap::multibounce)) {
     json["albedo"] = describe_albedo(options.albedo);
     if (options.light_channels > 0) {

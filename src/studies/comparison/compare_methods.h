@@ -53,7 +53,7 @@ struct RoleOfMethod {
 struct StageCost {
   std::string method;
   std::string parameters;
-  double occlusion_core_seconds = 0;             ///< AO, and direct light from it
+  double occlusion_core_seconds = 0;             ///< AO, and direct irradiance from it
   std::vector<double> bounce_core_seconds = {};  ///< beside that, per albedo
 };
 
@@ -66,7 +66,7 @@ struct Comparison {
   std::vector<FormPanel> panels;         ///< of the exact AO, then of GTAO as games run it
   std::vector<RenderedForm> rendered;    ///< likewise
   std::vector<RenderedForm> directions;  ///< A of GTAO by 1, 16 and 96 directions, and the exact one
-  std::vector<RenderedForm> sky_light;   ///< direct light of the reference's sky: the exact one first
+  std::vector<RenderedForm> sky_light;   ///< direct irradiance of the reference's sky: the exact one first
   std::vector<StageCost> stages;
 };
 

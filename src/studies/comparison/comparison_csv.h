@@ -8,7 +8,7 @@
 
 namespace heightlight {
 
-/// "8 azimuths; fineness 8; cubic": how the table and plots name what stands in a row.
+/// "8 azimuths; samples per octave 8; cubic": how the table and plots name what stands in a row.
 std::string parameters_and_variant(const ComparisonRow& row);
 
 /// Writes `method,parameters,quantity,seconds,core_seconds,samples_per_texel,rmse,bias,p99,max,psnr`. Bent

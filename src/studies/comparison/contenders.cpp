@@ -95,10 +95,12 @@ void add_rays(const ComparedScene& scene, std::vector<Contender>& contenders) {
 }
 
 void add_walks(const ComparedScene& scene, std::vector<Contender>& contenders) {
-  for (const auto& [azimuths, fineness] : {std::pair{4, 8}, {8, 8}, {16, 8}, {16, 16}, {32, 16}, {64, 32}}) {
-    const WalkOptions walk{.azimuths = azimuths, .fineness = fineness, .peak_share = 0.3F};
+  for (const auto& [azimuths, samples_per_octave] :
+       {std::pair{4, 8}, {8, 8}, {16, 8}, {16, 16}, {32, 16}, {64, 32}}) {
+    const WalkOptions walk{
+        .azimuths = azimuths, .samples_per_octave = samples_per_octave, .peak_share = 0.3F};
     contenders.push_back(sky_contender(scene, "horizon walk",
-                                       fmt::format("{} azimuths; fineness {}", azimuths, fineness),
+                                       fmt::format("{} azimuths; fineness {}", azimuths, samples_per_octave),
                                        by_fixed_walk(scene, walk)));
     if (azimuths != 8) continue;
     contenders.back().shown = true;
@@ -115,11 +117,11 @@ void add_walks(const ComparedScene& scene, std::vector<Contender>& contenders) {
   }
 }
 
-/// Jimenez et al. 2016, section 4.3: near occlusion by GTAO, fading over the outer half of its reach, and the
-/// baked one of what is far, "by calculating their minimum". The baking is nobody's time.
-Estimate run_near_and_far(const ComparedScene& scene, double reach) {
+/// Jimenez et al. 2016, section 4.3: near occlusion by GTAO, fading over the outer half of its radius, and
+/// the baked one of what is far, "by calculating their minimum". The baking is nobody's time.
+Estimate run_near_and_far(const ComparedScene& scene, double radius) {
   GtaoOptions options;
-  options.reach = scene.depth.relief > 0 ? reach * scene.depth.relief : options.reach;
+  options.radius = scene.depth.relief > 0 ? radius * scene.depth.relief : options.radius;
   options.falloff = 0.5;
   ScreenSpaceView view = gtao(scene.depth, options);
   Estimate estimate;
@@ -134,11 +136,11 @@ Estimate run_near_and_far(const ComparedScene& scene, double reach) {
 
 void add_near_and_far(const ComparedScene& scene, std::vector<Contender>& contenders) {
   if (!scene.far_field) return;
-  for (const double reach : {0.25, 0.5, 1.0}) {
+  for (const double radius : {0.25, 0.5, 1.0}) {
     contenders.push_back(
         {.method = "gtao near with baked far",
-         .parameters = fmt::format("3 x 3; reach {:g}; 16 turns; falloff 0.5; far at 1/8", reach),
-         .run = [scene, reach](const auto&) { return run_near_and_far(scene, reach); }});
+         .parameters = fmt::format("3 x 3; reach {:g}; 16 turns; falloff 0.5; far at 1/8", radius),
+         .run = [scene, radius](const auto&) { return run_near_and_far(scene, radius); }});
   }
 }
 

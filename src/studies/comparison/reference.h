@@ -25,7 +25,7 @@ struct ComparedAlbedo {
   }
 };
 
-/// A sky that is not the same all over, under which direct light is compared.
+/// A sky that is not the same all over, under which direct irradiance is compared.
 struct ComparedSky {
   std::string quantity = "two_tone_irradiance";  ///< as the table has it
   std::string label = "a sky warm where y > 0, cold elsewhere";

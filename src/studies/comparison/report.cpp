@@ -156,7 +156,7 @@ void write_sky_light(std::FILE* file, const ReportInput& input) {
 /// Ritschel et al. 2009, table 1: what the stages take apart.
 void write_stages(std::FILE* file, const ReportInput& input) {
   if (input.comparison.stages.empty()) return;
-  fmt::print(file, "## Stages, core-seconds\n\n| method | AO and direct light |");
+  fmt::print(file, "## Stages, core-seconds\n\n| method | AO and direct irradiance |");
   for (const ComparedAlbedo& albedo : input.scene.albedos)
     fmt::print(file, " bounce, albedo {} |", albedo.label);
   fmt::print(file, "\n|---|---|");

@@ -26,7 +26,7 @@ struct SkyLightResult {
   RenderedForm rendered;
 };
 
-/// Compares direct light under the reference's sky, which is prepared once: renderers have it so.
+/// Compares direct irradiance under the reference's sky, which is prepared once: renderers have it so.
 class SkyComparison {
  public:
   explicit SkyComparison(const ComparisonReference& reference);

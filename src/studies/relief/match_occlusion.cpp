@@ -47,7 +47,7 @@ OcclusionFit compare(const Map& ours, const Map& theirs, int margin) {
 Request occlusion_request(const Watch& watch) {
   Request request;
   request.wanted.sky = true;
-  request.accuracy.plan = HorizonPlan{.sky = {.walk = {.azimuths = 16, .fineness = 8}}};
+  request.accuracy.plan = HorizonPlan{.sky = {.walk = {.azimuths = 16, .samples_per_octave = 8}}};
   request.checks = {.sky = false, .totals = false, .energy = false, .bounces = false};
   request.watch = {.tell = {}, .stopped = watch.stopped};
   return request;

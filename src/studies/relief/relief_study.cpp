@@ -67,8 +67,8 @@ BounceCurves simulate_curves(Heightmap map, const ReliefStudy& study, const Watc
 
 const HorizonPlan& study_plan() {
   static const HorizonPlan kPlan{
-      .sky = {.walk = {.azimuths = 48, .fineness = 16, .peak_share = 0.3F}},
-      .gather = {.walk = {.azimuths = 8, .fineness = 16, .peak_share = 0.3F}},
+      .sky = {.walk = {.azimuths = 48, .samples_per_octave = 16, .peak_share = 0.3F}},
+      .gather = {.walk = {.azimuths = 8, .samples_per_octave = 16, .peak_share = 0.3F}},
   };
   return kPlan;
 }

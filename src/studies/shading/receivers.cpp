@@ -43,9 +43,9 @@ OpennessSource find_baked_openness(const Surface& surface, const ReceiverGrid& g
 
 OpennessSource find_gtao_openness(const Surface& surface, const ReceiverGrid& grid) {
   const DepthBuffer depth = make_depth_buffer(surface);
-  const double reach = depth.relief > 0 ? std::min(depth.relief, farthest_reach(depth))
-                                        : std::numeric_limits<double>::infinity();
-  const ScreenSpaceView found = gtao(depth, {.reach = reach, .bent_normal = true});
+  const double radius = depth.relief > 0 ? std::min(depth.relief, largest_radius(depth))
+                                         : std::numeric_limits<double>::infinity();
+  const ScreenSpaceView found = gtao(depth, {.radius = radius, .bent_normal = true});
   OpennessSource source{.name = kGtaoOpenness};
   for (const std::size_t texel : grid.texels) {
     source.receivers.push_back({static_cast<double>(found.sky_view_factor.values[texel]),

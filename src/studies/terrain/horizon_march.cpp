@@ -25,7 +25,7 @@ std::vector<MarchStep> list_steps(const Surface& surface, const MarchOptions& op
   const double along_columns = std::cos(options.azimuth_rad) * length / spacing.x;
   const double along_rows = -std::sin(options.azimuth_rad) * length / spacing.y;
   std::vector<MarchStep> steps;
-  for (int k = 1; options.reach == 0 || k <= options.reach; ++k) {
+  for (int k = 1; options.cells == 0 || k <= options.cells; ++k) {
     const int columns = static_cast<int>(std::floor(k * along_columns + 0.5));
     const int rows = static_cast<int>(std::floor(k * along_rows + 0.5));
     if (std::abs(columns) >= surface.width() || std::abs(rows) >= surface.height()) break;
@@ -58,7 +58,7 @@ void march_row(const Surface& surface, const std::vector<MarchStep>& steps, int 
 }  // namespace
 
 Map march_horizon(const Surface& surface, const MarchOptions& options) {
-  assert(!surface.tiles() && options.reach >= 0);
+  assert(!surface.tiles() && options.cells >= 0);
   const std::vector<MarchStep> steps = list_steps(surface, options);
   Map slopes(surface.width(), surface.height(), -std::numeric_limits<float>::infinity());
   parallel_for(surface.height(), [&](std::int64_t i) {

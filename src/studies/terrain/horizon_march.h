@@ -14,7 +14,7 @@ enum class CellDistance {
 /// How terrain tools look for a horizon.
 struct MarchOptions {
   double azimuth_rad = 0;  ///< counterclockwise from x
-  int reach = 0;           ///< steps; 0: as far as the map goes
+  int cells = 0;           ///< steps; 0: as far as the map goes
   CellDistance distance = CellDistance::along_ray;
 };
 

@@ -30,7 +30,7 @@ void write_terrain_methods_csv(const std::filesystem::path& path, const std::vec
                "core_seconds_per_megatexel,rmse,bias,p95\n");
     for (const TerrainMethodRow& row : rows) {
       fmt::print(file, "{},{},{},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n", row.method,
-                 unless_zero(row.azimuths), unless_zero(row.reach), unless_zero(row.error_wanted),
+                 unless_zero(row.azimuths), unless_zero(row.cells), unless_zero(row.error_wanted),
                  facts_of(row.quantity.definition).name,
                  row.quantity.below == BelowHorizontal::ground ? "ground" : "sky", row.cost.wall,
                  row.cost.core, row.per_megatexel, row.error.rmse, row.error.bias, row.error.p95);

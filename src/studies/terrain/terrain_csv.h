@@ -14,7 +14,7 @@ void write_terrain_forms_csv(const std::filesystem::path& path, const std::vecto
 
 /// Writes `method,azimuths,reach_cells,error_wanted,definition,below_horizontal,seconds,core_seconds,
 /// core_seconds_per_megatexel,rmse,bias,p95`. Azimuths are empty where they are chosen for an error, the
-/// reach where there is none, the error where none is wanted. Throws Error naming the file.
+/// number of cells where there is none, the error where none is wanted. Throws Error naming the file.
 void write_terrain_methods_csv(const std::filesystem::path& path, const std::vector<TerrainMethodRow>& rows);
 
 }  // namespace heightlight

@@ -14,7 +14,7 @@ namespace heightlight {
 namespace {
 
 constexpr int kTriedAzimuths[] = {8, 16, 32, 64};
-constexpr int kReaches[] = {10, 50, 100, 1000, 0};  // cells; 0: all
+constexpr int kCells[] = {10, 50, 100, 1000, 0};  // cells; 0: all
 constexpr double kErrors[] = {0.01, 0.003, 0.001};
 
 std::vector<double> values_at(const Map& map, const std::vector<std::size_t>& receivers) {
@@ -32,18 +32,18 @@ std::vector<FoundQuantity> march(const Surface& surface, const TerrainTruth& tru
   return found;
 }
 
-/// The usual algorithm; a reach that no texel's ray is longer than is that of the whole map.
+/// The usual algorithm; a number of cells that no texel's ray is longer than is that of the whole map.
 void add_marches(const Surface& surface, const TerrainTruth& truth, std::vector<TerrainMethod>& methods) {
   for (const CellDistance distance : {CellDistance::along_ray, CellDistance::to_cell}) {
     const bool is_along = distance == CellDistance::along_ray;
     for (const int azimuths : kTriedAzimuths) {
-      for (const int reach : kReaches) {
-        if (reach >= std::max(surface.width(), surface.height())) continue;
+      for (const int cells : kCells) {
+        if (cells >= std::max(surface.width(), surface.height())) continue;
         methods.push_back({.name = is_along ? kRayMarchMethod : kCellMarchMethod,
                            .azimuths = azimuths,
-                           .reach = reach,
-                           .run = [&surface, &truth, azimuths, reach, distance] {
-                             return march(surface, truth, azimuths, {.reach = reach, .distance = distance});
+                           .cells = cells,
+                           .run = [&surface, &truth, azimuths, cells, distance] {
+                             return march(surface, truth, azimuths, {.cells = cells, .distance = distance});
                            }});
       }
     }
@@ -113,7 +113,7 @@ QuantityError measure_differences(std::vector<double>& differences) {
 
 std::string parameters_of(const TerrainMethodRow& row) {
   if (row.error_wanted > 0) return fmt::format("error {:g}", row.error_wanted);
-  return row.reach > 0 ? fmt::format("{} azimuths, {} cells", row.azimuths, row.reach)
+  return row.cells > 0 ? fmt::format("{} azimuths, {} cells", row.azimuths, row.cells)
                        : fmt::format("{} azimuths", row.azimuths);
 }
 
@@ -153,7 +153,7 @@ std::vector<TerrainMethodRow> compare_terrain_methods(const Surface& surface, co
       for (std::size_t i = 0; i < exact.size(); ++i) found.values[i] -= exact[i];
       rows.push_back({.method = method.name,
                       .azimuths = method.azimuths,
-                      .reach = method.reach,
+                      .cells = method.cells,
                       .error_wanted = method.error,
                       .quantity = found.quantity,
                       .cost = found.cost,

@@ -32,7 +32,7 @@ inline constexpr double kErrorOfGivenAzimuths = 0.001;
 struct TerrainMethod {
   std::string name;
   int azimuths = 0;  ///< 0: chosen for the error
-  int reach = 0;     ///< in steps of a cell; 0: as far as the map goes
+  int cells = 0;     ///< in steps of a cell; 0: as far as the map goes
   double error = 0;  ///< RMSE wanted; 0: none is
   std::function<std::vector<FoundQuantity>()> run;
 };
@@ -51,7 +51,7 @@ QuantityError measure_differences(std::vector<double>& differences);
 struct TerrainMethodRow {
   std::string method = {};
   int azimuths = 0;
-  int reach = 0;
+  int cells = 0;
   double error_wanted = 0;
   TerrainQuantity quantity = {};
   Cost cost = {};

@@ -35,7 +35,7 @@ void write_truth(std::FILE* file, const TerrainStudy& study) {
   const Sun& sun = study.options.sun;
   fmt::print(file,
              "## What terrain reflects\n\nThe truth is light transport to convergence, all bounces, of the "
-             "direct light that the formulas are given too: of an even sky, which shines from below the "
+             "direct irradiance that the formulas are given too: of an even sky, which shines from below the "
              "horizontal as well where the map ends, or of the sun alone, {:.4g}° from north and {:.4g}° "
              "high. E/π; the sun's in units of a plane that faces it. All texels count, also those at the "
              "border, which see less terrain than they would. Mean A {:.4f}; with what lies below the "
@@ -64,7 +64,8 @@ void write_formulas(std::FILE* file) {
   fmt::print(
       file,
       "Window means (w) are plain ones over a square; those that ours take, D and A, are weighted by V "
-      "over the cosine of the slope. L is a level open plain's direct light, S the slope, V = 1 − A.\n\n");
+      "over the cosine of the slope. L is a level open plain's direct irradiance, S the slope, V = 1 − "
+      "A.\n\n");
   begin_table(file, {"form", "E", "source"});
   for (const TerrainForm& form : terrain_forms())
     fmt::print(file, "| {} | {} | {} |\n", form.name, as_markdown(form.description),
@@ -169,15 +170,15 @@ std::string cost_and_error(const TerrainMethodRow& row) {
 /// Of one quantity in the usual way, by as many walks, and by a walk planned for an error.
 void write_usual_cost(std::FILE* file, const TerrainStudy& study, const TerrainQuantity& quantity) {
   constexpr int kUsualAzimuths = 16;
-  constexpr int kUsualReach = 100;
+  constexpr int kUsualCells = 100;
   fmt::print(file, "* **What do {} azimuths and {} cells of reach cost, of {}?**", kUsualAzimuths,
-             kUsualReach, as_markdown(name_of(quantity)));
+             kUsualCells, as_markdown(name_of(quantity)));
   const TerrainMethodRow* planned = nullptr;
   for (const TerrainMethodRow& row : study.methods) {
     if (row.quantity != quantity) continue;
     if (row.error_wanted > 0) planned = &row;  // the last is for the smallest error
     const bool is_march = row.method == kRayMarchMethod || row.method == kCellMarchMethod;
-    const bool is_usual = row.azimuths == kUsualAzimuths && row.reach == (is_march ? kUsualReach : 0);
+    const bool is_usual = row.azimuths == kUsualAzimuths && row.cells == (is_march ? kUsualCells : 0);
     if (is_usual) fmt::print(file, " {}: {}.", row.method, cost_and_error(row));
   }
   if (planned)

@@ -11,7 +11,7 @@
 #include "transport/gather_field.h"
 #include "visibility/horizon_sky.h"
 #include "windows/begin_work.h"
-#include "windows/outer_light.h"
+#include "windows/outer_irradiance.h"
 #include "windows/step_plan.h"
 #include "windows/steps.h"
 #include "windows/windowed_bake.h"
@@ -45,8 +45,8 @@ WindowPlace widened(const MapRect& window, int halo, const WorkFacts& facts) {
 Map solve_window(const Work& work, std::size_t channel, const Surface& surface, const Map& sky) {
   const BakeOptions& options = work.task.options;
   const GatherPlan& plan = work.state.plan->gather;
-  const LightSystem system{.albedo = options.albedo.constant[channel]};
-  const OuterLight outer = find_outer_light(work, system.albedo);
+  const IrradianceSystem system{.albedo = options.albedo.constant[channel]};
+  const OuterIrradiance outer = find_outer_irradiance(work, system.albedo);
   const MapGather gather(surface, {}, plan.walk);
   GatherField field = start_field(system, sky);
   field.course = begin_course(system.albedo, deep_surface_share(sky, surface), plan.walk.azimuths);
@@ -58,7 +58,7 @@ Map solve_window(const Work& work, std::size_t channel, const Surface& surface, 
   for (int k = 0; azimuths_of_gather(field.course, k) > 0; ++k) {
     begin_gather(k, field.course);
     FieldPyramid pyramid = gather.make_pyramid();
-    fill_with_outer_light(outer, surface, field, pyramid);
+    fill_with_outer_irradiance(outer, surface, field, pyramid);
     const GatherTurn turn{.azimuths = azimuths_of_gather(field.course, k), .turn = spread_turn(k + 1)};
     const std::vector<ChangeSum> changes = take_step(ground, turn, {&pyramid}, {&field}, k < kTellingGathers);
     if (!changes.empty()) end_gather(k, changes[0], true, options.error, field.course);
@@ -71,9 +71,11 @@ Material material_of(const Work& work, const Surface& surface) {
   const BakeOptions& options = work.task.options;
   const SkyPlan& plan = work.state.plan->sky;
   const Request request = material_request(options, azimuth_convention(options, surface.map.boundary));
-  HorizonSky sky = walk_horizon_sky(
-      surface, {}, plan, {.wanted = request.wanted.moments, .reach = options.reach, .below = options.below},
-      options.watch);
+  HorizonSky sky = walk_horizon_sky(surface, {}, plan,
+                                    {.wanted = request.wanted.moments,
+                                     .maximum_distance = options.maximum_distance,
+                                     .below = options.below},
+                                    options.watch);
   Material material;
   material.surface = &surface;
   for (std::size_t c = 0; c < total_channels(work); ++c)
@@ -83,8 +85,8 @@ Material material_of(const Work& work, const Surface& surface) {
   results.ambient_occlusion = std::move(sky.ambient_occlusion);
   results.moments = std::move(sky.moments);
   if (!request.wanted.horizon_rad.empty()) {
-    results.horizons =
-        walk_horizons(surface, {}, plan.walk, request.wanted.horizon_rad, options.reach, options.watch);
+    results.horizons = walk_horizons(surface, {}, plan.walk, request.wanted.horizon_rad,
+                                     options.maximum_distance, options.watch);
   }
   return material;
 }
@@ -155,7 +157,7 @@ BakeOutcome bake_window(const WindowedTask& task, const MapRect& window, const B
   check_windowed(task);
   const WorkPlace place_of_work(task.folder);
   Work work = begin_work(task, 0);
-  take_reach(work);
+  take_maximum_distance(work);
   check_window(window, work.state.facts);
   for (int part = 0; part < work.state.facts.grid.count(); ++part) find_coarse_blocks(work, part);
   work.state.plan = plan_on(work, middle_crop(window, work.state.facts.grid));

@@ -187,7 +187,8 @@ void check_side(int side) {
 
 std::uint64_t window_bytes(const WindowGrid& grid, int first_coarse, const BakeOptions& options) {
   constexpr std::uint64_t kFloat = sizeof(float);
-  const auto margin = static_cast<std::uint64_t>(walk_reach({.fineness = 32}));  // few maps want more
+  const auto margin =
+      static_cast<std::uint64_t>(walk_margin({.samples_per_octave = 32}));  // few maps want more
   const auto squared = [](std::uint64_t side) { return side * side; };
   const auto side =
       static_cast<std::uint64_t>(std::min(grid.side, std::max(grid.map_width, grid.map_height)));

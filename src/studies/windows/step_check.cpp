@@ -118,8 +118,9 @@ std::optional<SkyCheck> check_maps(const Work& work, const ExactWalker& walker) 
                            .sky_view_factor = sky.sky_view_factor.values[0],
                            .moments = std::move(sky.moments)};
   };
-  return check_receivers_sky(walker, maps_at,
-                             {.reach = options.reach, .below = options.below, .seed = options.seed});
+  return check_receivers_sky(
+      walker, maps_at,
+      {.maximum_distance = options.maximum_distance, .below = options.below, .seed = options.seed});
 }
 
 nlohmann::ordered_json to_json(const HorizonCheck& check) {
@@ -246,7 +247,7 @@ std::optional<SkyCheck> check_window_sky(const Work& work, const Material& mater
     return receiver;
   };
   return check_receivers_sky(walker, found,
-                             {.reach = options.reach,
+                             {.maximum_distance = options.maximum_distance,
                               .below = options.below,
                               .seed = options.seed,
                               .first_row = window.first_row,

@@ -34,7 +34,7 @@ void find_coarse_blocks(const Work& work, int window) {
   const WorkFacts& facts = work.state.facts;
   const WindowFiles heights(heights_folder(work), 0);
   const WindowPlace place = facts.grid.place(window);
-  const HeightMips::Level level = coarse_heights_of(heights, facts.boundary, place, facts.first_coarse);
+  const HeightPyramid::Level level = coarse_heights_of(heights, facts.boundary, place, facts.first_coarse);
   const Map cells = highest_of_cells(heights, facts.boundary, place, facts.first_coarse);
   write_window(coarse_folder(work), window, {&level.mean, &level.highest, &cells});
 }

@@ -66,7 +66,7 @@ std::vector<double> sample_sky(const Work& work) {
 }
 
 /// Of the channels that are gathered, the one of that number.
-LightSystem system_of(const Work& work, std::size_t number) {
+IrradianceSystem system_of(const Work& work, std::size_t number) {
   return {.albedo = work.task.options.albedo.constant[channels_at_hand(work)[number]]};
 }
 
@@ -113,7 +113,7 @@ class Radiosity : public StoredMap {
   WindowFiles before_;
 };
 
-GatherField read_field(const Work& work, int window, std::size_t channel, const LightSystem& system,
+GatherField read_field(const Work& work, int window, std::size_t channel, const IrradianceSystem& system,
                        const Map& sky) {
   GatherField field = start_field(system, sky);
   field.course = work.state.courses[channel];
@@ -192,7 +192,7 @@ void begin_courses(Work& work) {
                              .planned_unevenness = plan.unevenness};
   work.state.courses.clear();
   for (std::size_t c = 0; c < channels_at_hand(work).size(); ++c) {
-    const LightSystem system = system_of(work, c);
+    const IrradianceSystem system = system_of(work, c);
     const double found = unevenness(system, strip.sky, strip.surface);
     work.state.courses.push_back(
         begin_course(system.albedo, deep_share, azimuths_for_unevenness(found, goal)));
@@ -222,7 +222,7 @@ void gather_window(Work& work, int window) {
   const SkyClasses classes(work.state.class_sample);
   const Watch silent{.tell = {}, .stopped = work.task.options.watch.stopped};
   const StepGround ground{gather, sky, classes, silent};
-  std::vector<LightSystem> systems;
+  std::vector<IrradianceSystem> systems;
   std::vector<GatherField> fields;
   for (std::size_t c = 0; c < work.state.courses.size(); ++c) systems.push_back(system_of(work, c));
   for (std::size_t c = 0; c < systems.size(); ++c)

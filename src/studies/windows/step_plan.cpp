@@ -22,7 +22,7 @@ std::filesystem::path plan_file(const Work& work, int crop) {
 
 /// Mean of what the highest of blocks have above their means.
 double roughness(const CoarseHeights& coarse, const MapRect& crop) {
-  const HeightMips::Level& level = coarse.levels[0];
+  const HeightPyramid::Level& level = coarse.levels[0];
   const int side = 1 << coarse.first;
   double sum = 0;
   int blocks = 0;
@@ -59,12 +59,12 @@ HorizonPlan find_plan(const Work& work, const Surface& surface) {
   if (total_channels(work) > 0) {
     plan = plan_horizon_transport(surface, goal, {}, options.watch).plan;
   } else {
-    const HeightMips mips = build_height_mips(surface);
-    SkyCalibration calibration(surface, mips,
+    const HeightPyramid pyramid = build_height_pyramid(surface);
+    SkyCalibration calibration(surface, pyramid,
                                {.seed = options.seed, .watch = options.watch, .below = options.below});
     plan.sky = plan_sky(calibration, goal);
   }
-  if (options.reach) {
+  if (options.maximum_distance) {
     plan.sky.full_from = 0;
     plan.sky.full_share = 1;
   }
@@ -72,7 +72,9 @@ HorizonPlan find_plan(const Work& work, const Surface& surface) {
 }
 
 /// Of what gathers cost, as far as plans differ.
-double walk_cost(const WalkOptions& walk) { return double{1} * walk.azimuths * (20 + walk.fineness); }
+double walk_cost(const WalkOptions& walk) {
+  return double{1} * walk.azimuths * (20 + walk.samples_per_octave);
+}
 
 }  // namespace
 

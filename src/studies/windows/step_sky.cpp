@@ -9,7 +9,8 @@ void find_window_sky(Work& work, int window) {
   const SkyPlan& plan = plan_at_hand(work).sky;
   const bool refines = !work.state.refined.empty();
   const Surface surface = surface_of_window(work, window, {plan.walk});
-  const SkyTask task{.wanted = sky_wanted(options), .reach = options.reach, .below = options.below};
+  const SkyTask task{
+      .wanted = sky_wanted(options), .maximum_distance = options.maximum_distance, .below = options.below};
   const HorizonSky sky = walk_horizon_sky(surface, {}, plan, refines ? SkyTask{} : task, options.watch);
   if (refines)
     return write_window(lighting_folder(work), window, {&sky.sky_view_factor, &sky.ambient_occlusion});

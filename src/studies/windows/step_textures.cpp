@@ -26,8 +26,9 @@ Material material_of_window(const Work& work, int window, const Surface& surface
   }
   const Request request = material_request(options, azimuth_convention(options, surface.map.boundary));
   if (!request.wanted.horizon_rad.empty()) {
-    material.results.horizons = walk_horizons(surface, {}, work.state.plan->sky.walk,
-                                              request.wanted.horizon_rad, options.reach, options.watch);
+    material.results.horizons =
+        walk_horizons(surface, {}, work.state.plan->sky.walk, request.wanted.horizon_rad,
+                      options.maximum_distance, options.watch);
   }
   return material;
 }

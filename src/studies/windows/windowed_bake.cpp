@@ -229,7 +229,8 @@ void check_windowed(const WindowedTask& task) {
     if (definition_of(entry.map) && is_wanted(options, entry.map)) refuse("maps", entry.name, entry.name);
   }
   const bool bounces = is_wanted(options, MaterialMap::multibounce);
-  if (bounces && task.reach) refuse("max_distance", "", "multibounce beside maps with a maximum distance");
+  if (bounces && task.maximum_distance)
+    refuse("max_distance", "", "multibounce beside maps with a maximum distance");
   if (bounces && options.below == BelowHorizontal::ground)
     refuse("below_horizontal", "ground", "multibounce under a sky that ends at the horizontal");
 }
@@ -237,8 +238,8 @@ void check_windowed(const WindowedTask& task) {
 namespace {
 
 /// What hangs on the map, once it is known.
-Work with_reach(Work work) {
-  take_reach(work);
+Work with_maximum_distance(Work work) {
+  take_maximum_distance(work);
   return work;
 }
 
@@ -248,7 +249,7 @@ Work join_work(WindowedTask task) {
   std::optional<WorkState> state = read_state(task.folder);
   if (!state || state->facts.request != task.options.request)
     throw file_error(task.folder, "holds no work of this bake");
-  return with_reach({.task = std::move(task), .state = std::move(*state)});
+  return with_maximum_distance({.task = std::move(task), .state = std::move(*state)});
 }
 
 Work open_work(WindowedTask task, int side, const BeginWork& begin) {
@@ -256,8 +257,8 @@ Work open_work(WindowedTask task, int side, const BeginWork& begin) {
   std::optional<WorkState> state = read_state(task.folder);
   const bool goes_on =
       state && state->facts.request == task.options.request && (side == 0 || side == state->facts.grid.side);
-  if (!goes_on) return with_reach(begin(std::move(task), side));
-  return with_reach({.task = std::move(task), .state = std::move(*state)});
+  if (!goes_on) return with_maximum_distance(begin(std::move(task), side));
+  return with_maximum_distance({.task = std::move(task), .state = std::move(*state)});
 }
 
 std::string stage_of(const Work& work) {

@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "bake/material.h"
-#include "visibility/reach_table.h"
+#include "visibility/distance_table.h"
 
 namespace heightlight {
 
@@ -89,18 +89,19 @@ Surface surface_of_window(Work& work, int window, const std::vector<WalkOptions>
 Surface surface_at(Work& work, const WindowPlace& place, const std::vector<WalkOptions>& walks) {
   const WindowFiles heights(heights_folder(work), 0);
   const MapParts parts = parts_of_map(work, heights);
-  WindowReach reach;
+  WindowView view;
   for (const WalkOptions& walk : walks) {
-    const WindowReach own = window_reach(parts, walk);
-    reach = {std::max(reach.margin, own.margin), std::max(reach.levels, own.levels)};
+    const WindowView own = window_view(parts, walk);
+    view = {std::max(view.margin, own.margin), std::max(view.levels, own.levels)};
   }
-  return window_surface(parts, place, reach);
+  return window_surface(parts, place, view);
 }
 
-void take_reach(Work& work) {
+void take_maximum_distance(Work& work) {
   const WorkFacts& facts = work.state.facts;
-  if (work.task.reach) work.task.options.reach = work.task.reach(facts.spacing.x * facts.grid.map_width);
-  if (work.task.options.reach) check_reach(*work.task.options.reach);
+  if (work.task.maximum_distance)
+    work.task.options.maximum_distance = work.task.maximum_distance(facts.spacing.x * facts.grid.map_width);
+  if (work.task.options.maximum_distance) check_maximum_distance(*work.task.options.maximum_distance);
 }
 
 std::size_t total_channels(const Work& work) {

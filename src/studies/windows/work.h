@@ -23,8 +23,9 @@ namespace heightlight {
 struct WindowedTask {
   std::filesystem::path map;
   LoadOptions load = {};
-  BakeOptions options = {};                       ///< those that depend on the map are set once it is known
-  std::function<Reach(double width)> reach = {};  ///< of the map's extent along x, where a reach is wanted
+  BakeOptions options = {};  ///< those that depend on the map are set once it is known
+  std::function<MaximumDistance(double width)> maximum_distance =
+      {};  ///< of the map's extent along x, where a maximum distance is wanted
   std::filesystem::path folder = {};
   int halo = 256;  ///< texels around a single window (bake_window.h) in which its own light is found, too
 };
@@ -128,8 +129,9 @@ Surface surface_of_window(Work& work, int window, const std::vector<WalkOptions>
 /// The same of any place in the map.
 Surface surface_at(Work& work, const WindowPlace& place, const std::vector<WalkOptions>& walks);
 
-/// Sets the reach that is wanted, once the map is known. Throws UsageError for one out of its range.
-void take_reach(Work& work);
+/// Sets the maximum distance that is wanted, once the map is known. Throws UsageError for one out of its
+/// range.
+void take_maximum_distance(Work& work);
 
 /// Channels of the total that is wanted; 0 where none is.
 std::size_t total_channels(const Work& work);

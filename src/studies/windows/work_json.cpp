@@ -12,12 +12,14 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json to_json(const WalkOptions& walk) {
-  return {{"azimuths", walk.azimuths}, {"fineness", walk.fineness}, {"peak_share", walk.peak_share}};
+  return {
+      {"azimuths", walk.azimuths}, {"fineness", walk.samples_per_octave}, {"peak_share", walk.peak_share}};
 }
 
 WalkOptions walk_of(const nlohmann::json& json) {
-  return {
-      .azimuths = json.at("azimuths"), .fineness = json.at("fineness"), .peak_share = json.at("peak_share")};
+  return {.azimuths = json.at("azimuths"),
+          .samples_per_octave = json.at("fineness"),
+          .peak_share = json.at("peak_share")};
 }
 
 Json to_json(const FixedSum& sum) { return {sum.whole(), sum.part()}; }

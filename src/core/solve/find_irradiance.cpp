@@ -44,7 +44,7 @@ PlannedTransport find_operator(const Task& task, double error, const SkyWanted& 
   return found;
 }
 
-void find_light(const Task& task, Results& results) {
+void find_irradiance(const Task& task, Results& results) {
   const Request& request = task.request;
   const Wanted& wanted = request.wanted;
   Evidence& evidence = results.evidence;

@@ -7,7 +7,7 @@
 namespace heightlight {
 
 /// The total around a window, as the map's coarse levels alone have it.
-struct OuterLight {
+struct OuterIrradiance {
   double albedo = 0;
   int level = 0;   ///< of the blocks below
   Map irradiance;  ///< E/π per block of the whole map; NaN where nothing is
@@ -15,11 +15,11 @@ struct OuterLight {
 
 /// Solves a level of at most a million blocks as a map of its own, and spreads that over the first coarse
 /// level.
-OuterLight find_outer_light(const Work& work, double albedo);
+OuterIrradiance find_outer_irradiance(const Work& work, double albedo);
 
 /// Fills a pyramid with what the gather to come looks at: the field's own in the window, the outer light
 /// around it.
-void fill_with_outer_light(const OuterLight& outer, const Surface& window, const GatherField& field,
-                           FieldPyramid& pyramid);
+void fill_with_outer_irradiance(const OuterIrradiance& outer, const Surface& window, const GatherField& field,
+                                FieldPyramid& pyramid);
 
 }  // namespace heightlight

@@ -1,4 +1,4 @@
-#include "windows/outer_light.h"
+#include "windows/outer_irradiance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
 
 /// A level of the map's heights as a map of its own.
-Surface level_surface(const WorkFacts& facts, const HeightMips::Level& level, int l) {
+Surface level_surface(const WorkFacts& facts, const HeightPyramid::Level& level, int l) {
   Heightmap map{.height = level.mean,
                 .spacing = {std::ldexp(facts.spacing.x, l), std::ldexp(facts.spacing.y, l)},
                 .boundary = facts.boundary};
@@ -48,7 +48,7 @@ class Patch : public StoredMap {
 
 }  // namespace
 
-OuterLight find_outer_light(const Work& work, double albedo) {
+OuterIrradiance find_outer_irradiance(const Work& work, double albedo) {
   constexpr std::size_t kMostBlocks = 1 << 20;
   constexpr double kError = 0.004;
   const CoarseHeights& coarse = *work.coarse;
@@ -61,9 +61,9 @@ OuterLight find_outer_light(const Work& work, double albedo) {
                                         .checks = {.totals = false},
                                         .watch = work.task.options.watch});
   const Map total = to_map(found.totals[0][0], surface);
-  OuterLight outer{.albedo = albedo,
-                   .level = coarse.first,
-                   .irradiance = Map(coarse.levels[0].mean.width, coarse.levels[0].mean.height)};
+  OuterIrradiance outer{.albedo = albedo,
+                        .level = coarse.first,
+                        .irradiance = Map(coarse.levels[0].mean.width, coarse.levels[0].mean.height)};
   for (int row = 0; row < outer.irradiance.height; ++row) {
     for (int column = 0; column < outer.irradiance.width; ++column)
       outer.irradiance(row, column) = total(row >> k, column >> k);
@@ -71,8 +71,8 @@ OuterLight find_outer_light(const Work& work, double albedo) {
   return outer;
 }
 
-void fill_with_outer_light(const OuterLight& outer, const Surface& window, const GatherField& field,
-                           FieldPyramid& pyramid) {
+void fill_with_outer_irradiance(const OuterIrradiance& outer, const Surface& window, const GatherField& field,
+                                FieldPyramid& pyramid) {
   const WindowPlace place = place_in_map(window);
   const double kept = field.course.kept;
   Map radiosity(place.width, place.height);

@@ -1,4 +1,4 @@
-#include "visibility/height_mips.h"
+#include "visibility/height_pyramid.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,9 +27,9 @@ struct Children {
 
 }  // namespace
 
-HeightMips::Level coarsen_heights(const Image<float>& mean, const Image<float>& highest) {
-  HeightMips::Level level{Image<float>(half_blocks(mean.width), half_blocks(mean.height)),
-                          Image<float>(half_blocks(mean.width), half_blocks(mean.height))};
+HeightPyramid::Level coarsen_heights(const Image<float>& mean, const Image<float>& highest) {
+  HeightPyramid::Level level{Image<float>(half_blocks(mean.width), half_blocks(mean.height)),
+                             Image<float>(half_blocks(mean.width), half_blocks(mean.height))};
   parallel_for(level.mean.height, [&](std::int64_t line) {
     const int row = static_cast<int>(line);
     for (int column = 0; column < level.mean.width; ++column) {
@@ -47,7 +47,7 @@ HeightMips::Level coarsen_heights(const Image<float>& mean, const Image<float>& 
   return level;
 }
 
-std::uint64_t height_mips_bytes(int width, int height) {
+std::uint64_t height_pyramid_bytes(int width, int height) {
   std::uint64_t samples = 0;
   while (width > 1 || height > 1) {
     width = half_blocks(width);
@@ -57,19 +57,19 @@ std::uint64_t height_mips_bytes(int width, int height) {
   return samples * 2 * sizeof(float);
 }
 
-HeightMips build_height_mips(const Surface& surface) {
-  HeightMips mips;
-  if (surface.around) return mips;
-  if (has_loose_samples(surface)) mips.occluders = occluding_heights(surface);
-  const Image<float>* mean = &mips.level_0(surface);
+HeightPyramid build_height_pyramid(const Surface& surface) {
+  HeightPyramid pyramid;
+  if (surface.around) return pyramid;
+  if (has_loose_samples(surface)) pyramid.occluders = occluding_heights(surface);
+  const Image<float>* mean = &pyramid.level_0(surface);
   const Image<float>* highest = mean;
   while (mean->width > 1 || mean->height > 1) {
-    mips.levels.reserve(32);  // so that the pointers into it stay
-    mips.levels.push_back(coarsen_heights(*mean, *highest));
-    mean = &mips.levels.back().mean;
-    highest = &mips.levels.back().highest;
+    pyramid.levels.reserve(32);  // so that the pointers into it stay
+    pyramid.levels.push_back(coarsen_heights(*mean, *highest));
+    mean = &pyramid.levels.back().mean;
+    highest = &pyramid.levels.back().highest;
   }
-  return mips;
+  return pyramid;
 }
 
 }  // namespace heightlight

@@ -10,7 +10,7 @@ namespace heightlight {
 /// 2^l samples, ⌈width / 2^l⌉ × ⌈height / 2^l⌉ of them. The last level is one block. Samples that bound no
 /// facet stand in nobody's way, and count as missing. Heights are relative to the map's base, like the map's
 /// own; kNoHeight where a block holds no sample.
-struct HeightMips {
+struct HeightPyramid {
   struct Level {
     Image<float> mean;
     Image<float> highest;
@@ -26,14 +26,14 @@ struct HeightMips {
 /// Below everything, and finite, so that a weight of zero takes it away.
 constexpr float kNoHeight = -1e30F;
 
-/// Bytes that build_height_mips takes for a map of that size.
-std::uint64_t height_mips_bytes(int width, int height);
+/// Bytes that build_height_pyramid takes for a map of that size.
+std::uint64_t height_pyramid_bytes(int width, int height);
 
 /// Those of a window of a larger map are in its Surroundings: it has none here.
-HeightMips build_height_mips(const Surface& surface);
+HeightPyramid build_height_pyramid(const Surface& surface);
 
 /// The level above one, whose blocks hold means and highest heights; level 0 has its samples for both, NaN
 /// where missing.
-HeightMips::Level coarsen_heights(const Image<float>& mean, const Image<float>& highest);
+HeightPyramid::Level coarsen_heights(const Image<float>& mean, const Image<float>& highest);
 
 }  // namespace heightlight

@@ -1,4 +1,4 @@
-#include "visibility/reach_table.h"
+#include "visibility/distance_table.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,20 +7,22 @@
 
 namespace heightlight {
 
-void check_reach(const Reach& reach) {
-  if (!(reach.distance > 0) || !std::isfinite(reach.distance)) {
+void check_maximum_distance(const MaximumDistance& maximum_distance) {
+  if (!(maximum_distance.distance > 0) || !std::isfinite(maximum_distance.distance)) {
     throw UsageError("max_distance", "", "must be a positive number");
   }
   constexpr double kLongest = 1e12;  // its square is a single-precision number
-  if (reach.distance < 1 / kLongest || reach.distance > kLongest)
+  if (maximum_distance.distance < 1 / kLongest || maximum_distance.distance > kLongest)
     throw UsageError("max_distance", "", "must be from 1e-12 to 1e12");
 }
 
-ReachTable make_reach_table(const AzimuthTable& azimuth, const Reach& sphere) {
+DistanceTable make_distance_table(const AzimuthTable& azimuth, const MaximumDistance& sphere) {
   const double distance = sphere.distance;
-  const auto reach = static_cast<float>(distance);
-  ReachTable table{reach, reach * reach, -1e4F * reach, sphere.falloff, 0, {}};
-  while (table.near < azimuth.near.size() && 1 / azimuth.near[table.near].per_distance < reach) ++table.near;
+  const auto maximum_distance = static_cast<float>(distance);
+  DistanceTable table{
+      maximum_distance, maximum_distance * maximum_distance, -1e4F * maximum_distance, sphere.falloff, 0, {}};
+  while (table.near < azimuth.near.size() && 1 / azimuth.near[table.near].per_distance < maximum_distance)
+    ++table.near;
   table.near = std::min(table.near + 1, azimuth.near.size());
   for (const std::vector<RingSample>& ring : azimuth.rings) {
     std::vector<float>& caps = table.caps.emplace_back();
@@ -37,7 +39,7 @@ ReachTable make_reach_table(const AzimuthTable& azimuth, const Reach& sphere) {
 int rings_within(const Surface& surface, const WalkOptions& options, double distance, int rings) {
   const double texels = distance / std::min(surface.map.spacing.x, surface.map.spacing.y);
   int needed = 0;
-  while (needed < rings && std::ldexp(2 * options.fineness, needed + 1) < texels) ++needed;
+  while (needed < rings && std::ldexp(2 * options.samples_per_octave, needed + 1) < texels) ++needed;
   return needed;
 }
 
