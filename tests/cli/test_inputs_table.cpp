@@ -123,7 +123,7 @@ bool is_one_line(const std::string& error) {
 }  // namespace
 
 TEST_CASE("every command reads every kind of input by a name that is no UTF-8, and through a link",
-          "[cli][slow]") {
+          "[cli][deep]") {
   const Inputs inputs;
   const std::string name = GENERATE("in\xff\xfe", "link to");
   for (const Use& use : uses()) {

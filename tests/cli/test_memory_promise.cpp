@@ -96,7 +96,7 @@ TEST_CASE("a promise of memory is kept, or refused with what would do", "[cli][m
   CHECK(check_promise({"info", "brick512.png"}, "1M", folder));
 }
 
-TEST_CASE("a promise of memory is kept on larger maps, whatever is made of them", "[cli][memory][slow]") {
+TEST_CASE("a promise of memory is kept on larger maps, whatever is made of them", "[cli][memory][deep]") {
   const ScratchFolder folder;
   const std::string shape = GENERATE("brick", "fbm");
   const int side = GENERATE(512, 1024);

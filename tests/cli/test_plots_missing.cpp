@@ -31,7 +31,7 @@ void use_gnuplot_of(const ScratchFolder& folder) {
 
 }  // namespace
 
-TEST_CASE("without gnuplot, results lack their plots and nothing else", "[cli][slow]") {
+TEST_CASE("without gnuplot, results lack their plots and nothing else", "[cli][deep]") {
   const ScratchFolder folder;
   REQUIRE(run_command("synth brick -o m.png --size 24", folder).exit_code == 0);
   REQUIRE(run_command("simulate m.png -o run --rays 16 --bins 20 --quiet", folder).exit_code == 0);
@@ -110,7 +110,7 @@ TEST_CASE("a gnuplot that hangs ends with the command", "[cli]") {
   CHECK_FALSE(fs::exists(folder / "out"));
 }
 
-TEST_CASE("a gnuplot that does not end is given up after a minute", "[cli][slow]") {
+TEST_CASE("a gnuplot that does not end is given up after a minute", "[cli][deep]") {
   const ScratchFolder folder;
   REQUIRE(run_command("synth brick -o m.png --size 16", folder).exit_code == 0);
   put_gnuplot(folder, "[ \"$1\" = --version ] && echo gnuplot 5.4 && exit\nexec sleep 1000\n");

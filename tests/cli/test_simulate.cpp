@@ -173,7 +173,7 @@ TEST_CASE("one-dimensional and tiny maps simulate", "[cli]") {
   check_energy(read_summary(folder / "out"));
 }
 
-TEST_CASE("every real map simulates, with its energy in balance", "[cli][slow]") {
+TEST_CASE("every real map simulates, with its energy in balance", "[cli][deep]") {
   const auto [name, options] = GENERATE(
       std::pair{"material/Ground054_height16.png", ""}, std::pair{"material/Bricks102_height.jpg", ""},
       std::pair{"material/MetalWalkway006_height16.png", "--boundary tile"},

@@ -227,7 +227,7 @@ TEST_CASE("the shader beside ao-n maps, executed, is bounced_total", "[shaders][
   }
 }
 
-TEST_CASE("a hundredth more in any number of a shader is found", "[shaders][slow]") {
+TEST_CASE("a hundredth more in any number of a shader is found", "[shaders][deep]") {
   ComputeDevice* compute = device();
   if (!compute) return;
   const auto language = GENERATE(ShaderLanguage::glsl, ShaderLanguage::hlsl);
