@@ -62,7 +62,7 @@ std::vector<double> measure(const char* shape) {
   const HorizonCheck check =
       check_by_exact_walks(surface, transport.direct, {{.total = total, .albedo = kAlbedo}})[0];
   GtaoOptions preset;
-  preset.maximum_distance = 0.1;
+  preset.radius = 0.1;
   const ScreenSpaceView view = gtao(make_depth_buffer(surface), preset);
   const auto sky = [&](std::size_t i) { return SkyViewFactor(double{transport.sky_view_factor.values[i]}); };
   return {

@@ -34,7 +34,7 @@ double highest_albedo(const IrradianceSystem& system) {
 }
 
 /// Of the irradiance `start`, which the system starts with.
-double unevenness_of(const IrradianceSystem& system, const Map\& start, const Map& sky,
+double unevenness_of(const IrradianceSystem& system, const Map& start, const Map& sky,
                      const Surface& surface) {
   const double even = seen_spread(sky, surface, [&](std::size_t i) {
     return kPlanAlbedo * guess_total(double{sky.values[i]}, kPlanAlbedo);
