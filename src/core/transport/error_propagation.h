@@ -18,10 +18,9 @@ namespace heightlight {
 
 /// What one receiver finds.
 struct FoundError {
-  double residual = 0;        ///< r
-  std::size_t own_class = 0;  ///< class of the receiver by its A
-  SkyClasses::PerClass<double>
-      seen{};  ///< Σ F ρ over the places that the receiver sees, by the places' classes
+  double residual = 0;                  ///< r
+  std::size_t own_class = 0;            ///< class of the receiver by its A
+  SkyClasses::PerClass<double> seen{};  ///< Σ F ρ over the places that it sees, by their class
 
   struct SeenPlace {
     double residual = 0;

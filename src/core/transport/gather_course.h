@@ -12,8 +12,8 @@
 
 namespace heightlight {
 
-/// λ: at every gather the weight of the azimuths walked before fades by this factor, since the changes
-/// between gathers are known from few azimuths. (On bricks 0.3 is as good; 1 errs half as much again.)
+/// At every gather the weight of the azimuths walked before fades by this factor, since the changes between
+/// gathers are known from few azimuths. (On bricks 0.3 is as good; 1 errs half as much again.)
 constexpr double kFading = 0.6;
 
 constexpr int kMostGathers = 64;

@@ -38,12 +38,11 @@ constexpr std::size_t gather_block(int i, int j) {
 struct GatherSample {
   float way = 0;  ///< horizontal distance from the receiver, texels
   float per_distance = 0;
-  float weight[2] = {0, 0};  ///< near: weight of each sample's height, divided by the world distance
-  float share = 0;           ///< near: weight of the second sample in the field
-  std::int32_t offset[2] = {0,
-                            0};  ///< near: offset of each sample from the receiver's, in level 0 of a pyramid
-  int level = 0;                 ///< level of the block; 0: near
-  int row = 0;                   ///< row and column of a place in the block, texels from the receiver
+  float weight[2] = {0, 0};         ///< near: weight of each sample's height, divided by the world distance
+  float share = 0;                  ///< near: weight of the second sample in the field
+  std::int32_t offset[2] = {0, 0};  ///< near: from the receiver to each sample, in level 0 of a pyramid
+  int level = 0;                    ///< level of the block; 0: near
+  int row = 0;                      ///< row and column of a place in the block, texels from the receiver
   int column = 0;
 };
 
@@ -98,9 +97,8 @@ struct GatherTask {
   const GatherWalk& walk;
   std::array<const FieldPyramid*, kMostFields> fields = {};
   std::size_t field_count = 1;
-  std::array<std::uint16_t, kGatherBlocks> azimuths =
-      {};             ///< per block: how many of the first azimuths are walked; 0: none
-  float highest = 0;  ///< highest of all heights, above the map's base
+  std::array<std::uint16_t, kGatherBlocks> azimuths = {};  ///< number walked, per block; 0: none
+  float highest = 0;                                       ///< highest of all heights, above the map's base
 };
 
 /// Sets the sums of all receivers of the tile.

@@ -15,10 +15,10 @@ namespace heightlight {
 struct GatherTurn {
   int azimuths = 4;
   double turn = 0.25;
-  const Map* sky =
-      nullptr;  ///< A: receivers that see little of the surface walk fewer azimuths (azimuth_halvings), and
-                ///< those that see none do not walk; null: all receivers walk all azimuths
-  int fewest = 1;  ///< azimuths of a receiver that walks
+  const Map* sky = nullptr;  ///< A: receivers that see little of the surface walk fewer azimuths
+                             ///< (azimuth_halvings), and those that see none do not walk; null: all
+                             ///< receivers walk all azimuths
+  int fewest = 1;            ///< azimuths of a receiver that walks
 };
 
 /// Gathers over a whole map. What does not change from one gather to the next is made once.
