@@ -12,7 +12,7 @@ namespace heightlight {
 /// A direction of a lobe, and its weight.
 struct LobeSample {
   Eigen::Vector3d direction;
-  double weight = 0;  ///< share of the lobe's reflection; 0 for directions below the surface
+  double weight = 0;  ///< weight in the mean over the samples; 0 for directions below the surface
 };
 
 /// f_r cosθ of GGX, 1/sr, from the direction `light` to the direction `view`; both unit, with z > 0.

@@ -27,7 +27,7 @@ LobeSampler lambert_sampler();
 /// A lobe whose visibility is wanted.
 struct LookedLobe {
   LobeSampler sampler;
-  Eigen::Vector3d view = Eigen::Vector3d::UnitZ();  ///< unit, world axes
+  Eigen::Vector3d view = Eigen::Vector3d::UnitZ();  ///< toward the viewer; unit, world axes
   int rays = 256;                                   ///< at least kLobeParts
   std::uint64_t seed = 1;
 };

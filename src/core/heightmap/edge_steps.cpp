@@ -32,7 +32,8 @@ class StepMean {
 int lines_beside(int count) { return std::max(4, count / 8); }
 
 /// Root mean square steps between adjacent lines of one axis: across the border, inside the map, and the
-/// largest of those beside the border.
+/// largest of those beside the border. `step(from, to, mean)` of measure_axis adds the steps between two
+/// lines.
 struct AxisSteps {
   double across;
   double inside;

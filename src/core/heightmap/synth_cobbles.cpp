@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kRows = 8;
 constexpr int kColumns = 8;
-constexpr int kWindow = 2;  // cells on each side that can touch a stone
+constexpr int kWindow = 2;  // stones up to so many cells away can touch a stone
 constexpr int kNeighbours = (2 * kWindow + 1) * (2 * kWindow + 1) - 1;
 
 struct Centre {
@@ -22,7 +22,7 @@ struct Centre {
   double weight;  // weight in the power diagram, length²
 };
 
-/// Distance from a neighbour's border: offset + slope · (position − centre).
+/// A border with a neighbour. The distance from it is offset + slope · (position − centre).
 struct Border {
   double slope_u, slope_v, offset;
 };

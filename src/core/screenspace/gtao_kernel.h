@@ -14,8 +14,8 @@
 // m = tan h, this side's half of eq. 7 is
 //     |n̄| ∫₀^θ₂ cos(θ − γ) sinθ dθ = ∫_h^{π/2} (c cosη + n_z sinη) cosη dη
 //                                  = ½ (c (π/2 − atan m − m q) + n_z q),   q = cos²h = 1/(1 + m²),
-// which is the integral of an exact walk's azimuth; the side of −d has −c. In the same way, eqs. 20 and 21
-// are, with s = sin h and e = 1 − s,
+// which is the integral of an exact walk's azimuth; the side of −d has −c. Similarly, eqs. 20 and 21 are,
+// with s = sin h and e = 1 − s,
 //     along d:  c e² (2 + s)/3 + n_z cos³h/3,      along z:  c cos³h/3 + n_z e (1 + s + s²)/3.
 // The paper has cosine-weighted AO only. The plain share of solid angle above the same horizons, α, is the
 // mean of 1 − sin h. This needs one arc tangent per side, and neither |n̄| nor γ. Line 27's clamp to the

@@ -9,7 +9,7 @@
 
 // Jimenez et al. 2016, section 4.3: occlusion at half resolution, "bilaterally upscaled to full resolution".
 // Of every 2 × 2 texels the depth and the normal of the upper left one are kept. At full resolution a texel
-// takes the mean of those of the four nearest results that lie on its own surface, by their bilinear weights;
+// takes the mean, by bilinear weights, of those among the four nearest results that lie on its own surface;
 // of all four where none does.
 
 namespace heightlight {

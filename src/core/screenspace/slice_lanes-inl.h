@@ -82,7 +82,7 @@ HWY_INLINE Lanes sample_slopes(const DepthBuffer& depth, const Receivers& at, co
   return slopes;
 }
 
-/// Twice a side's share of irradiance above a horizon (gtao_kernel.h).
+/// Twice a side's irradiance above a horizon (gtao_kernel.h).
 HWY_INLINE VF slice_irradiance(VF c, VF n_z, const Elevation<VF>& horizon) {
   const VF q = hn::Mul(horizon.cosine, horizon.cosine);
   const VF zenith = hn::NegMulAdd(horizon.sine, horizon.cosine, horizon.from_zenith);

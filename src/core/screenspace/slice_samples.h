@@ -43,7 +43,7 @@ struct SliceSample {
 };
 
 struct Slice {
-  float x = 1;  ///< world direction of side 1; side 0 looks the other way
+  float x = 1;  ///< world direction of side 1; side 0 looks in the opposite direction
   float y = 0;
   std::array<std::vector<SliceSample>, 2> sides;  ///< samples by rising distance
 };

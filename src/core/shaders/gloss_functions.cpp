@@ -77,7 +77,7 @@ void put(const Direction<float>& direction, float* out) {
   out[2] = direction.z;
 }
 
-// Diffuse light of an uneven sky
+// Diffuse irradiance under an uneven sky
 // -----------------------------------------------------------------------------------
 
 ShaderFunction cone_bands_function() {

@@ -117,7 +117,7 @@ ShaderFunction notes_function(const NotesConstants& constants, const std::string
           .ulps = 4};
 }
 
-// This project's
+// This project's forms
 // ----------------------------------------------------------------------------------------------------
 
 ShaderFunction bounced_function() {

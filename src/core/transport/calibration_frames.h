@@ -37,7 +37,7 @@ std::vector<TileFrame> pick_frames(const Surface& surface, const CalibrationShap
 /// The i-th of `count` texels of a frame, one from each of `count` equal parts of the frame, picked by the
 /// seed; where the frame has fewer texels, some are picked twice.
 struct FrameTexel {
-  int row = 0;  ///< in the map
+  int row = 0;  ///< row in the map
   int column = 0;
 };
 FrameTexel pick_in_frame(const TileFrame& frame, std::uint64_t i, std::uint64_t count, std::uint64_t seed);

@@ -12,7 +12,7 @@
 // solved for. The deviation d from these means is passed on in part, too: the places that a receiver sees
 // have a share of its d, which is 0 where d is noise of each receiver by itself, and larger where a place and
 // what it sees err alike. Some receivers also know r of one of the places that they see, picked by its form
-// factor: these pairs tell that share.
+// factor: that share is estimated from these pairs.
 
 namespace heightlight {
 

@@ -11,7 +11,7 @@ namespace heightlight {
 struct GatherField {
   const IrradianceSystem& system;
   GatherCourse course = {};
-  double unit = 1;      ///< E/π of one unit, by the size of the direct irradiance
+  double unit = 1;      ///< E/π of one unit: unit_of the direct irradiance; 1 under the sky
   Map irradiance = {};  ///< E_k/π in units; NaN where the sample is missing
   Map before = {};      ///< E_{k−1}
   Map weighted = {};    ///< N

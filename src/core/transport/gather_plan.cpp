@@ -10,13 +10,13 @@
 namespace heightlight {
 namespace {
 
-/// Share of the gathers' error that ending them takes.
+/// Share of the error wanted of gathers that ending them may take.
 constexpr double kEndShare = 0.35;
 
 /// However much of the error aimed at the error of A takes, at least this share of it is left for gathers.
 constexpr double kLeastShare = 0.4;
 
-/// Where sampling leaves less than this share of the error, finer samples are not tried.
+/// Where sampling leaves less than this share of the error wanted, finer samples are not tried.
 constexpr double kFineEnough = 0.3;
 
 /// The error of few azimuths is small if it is no more than this share of the error of sampling.

@@ -86,8 +86,8 @@ GatherWalk make_gather_walk(const Surface& surface, const WalkOptions& options, 
 struct GatherSums {
   using Values = std::array<float, ReceiverTile::kTexels>;
 
-  alignas(64) Values weight;                             ///< of Σ (S(m) − S(m'))
-  alignas(64) std::array<Values, kMostFields> weighted;  ///< of Σ (S(m) − S(m')) x, per field
+  alignas(64) Values weight;                             ///< mean of Σ (S(m) − S(m'))
+  alignas(64) std::array<Values, kMostFields> weighted;  ///< mean of Σ (S(m) − S(m')) x, per field
 };
 
 /// What is gathered, and for which receivers.

@@ -17,9 +17,9 @@ namespace {
 constexpr std::int64_t kReceivers = 512;
 constexpr int kMostRounds = 4;
 
-/// An RMSE whose standard error is less than this share of it is good enough, unless twice the standard error
-/// leaves open whether the error wanted was missed. An RMSE is also good enough if it stays below the second
-/// share of the error wanted after twice its standard error is added.
+/// An RMSE whose standard error is at most kGoodEnough of it is good enough, unless twice the standard error
+/// leaves open whether the error wanted was missed. It is also good enough if the RMSE and twice its standard
+/// error together are at most kClearlyMet of the error wanted.
 constexpr double kGoodEnough = 0.1;
 constexpr double kClearlyMet = 0.9;
 

@@ -27,10 +27,10 @@ namespace heightlight {
 ///     N_{k+1} = λ N_k + N[ρ (E_{k+1} − λ E_k)],   W_{k+1} = λ W_k + (1 − λ) W[…]
 /// where N[x] and W are the means over the new azimuths. The azimuths walked before thus see the new field,
 /// too, except for the error that few azimuths make in its difference from the old field (Cutkosky and
-/// Orabona 2019, eq. 2, do the same for gradients that are known from few samples). Under the sky, E_{k+1} is
-/// then A + (1 − A) N/W. λ = 0 would make each gather independent; here the azimuths of all gathers have the
-/// same weight, except that old ones fade. The last gathers walk more azimuths, since the noise that early
-/// gathers leave shrinks with the rest of the error.
+/// Orabona 2019, eq. 2, do the same for gradients that are known from few samples). The gather direct + F ρ
+/// E_k is then direct + (1 − A) N_k/W_k. λ = 0 would make each gather independent; here the azimuths of all
+/// gathers have the same weight, except that old ones fade. The last gathers walk more azimuths, since the
+/// noise that early gathers leave shrinks with the rest of the error.
 struct ProgressiveSolution {
   std::vector<TexelVector> irradiance;  ///< E/π of each system
   int gathers = 0;                      ///< number of gathers, the most of any system

@@ -10,7 +10,7 @@ namespace heightlight {
 /// How bounces are walked.
 struct BounceWalk {
   int azimuths = 8;      ///< number for the first bounce
-  double error = 0.002;  ///< RMSE wanted
+  double error = 0.002;  ///< RMSE wanted of E_b/π
 };
 
 /// Bounces by gathers that walk few azimuths each, and fewer the later the bounce: the irradiance that is
