@@ -33,7 +33,7 @@ struct LookedLobe {
 };
 
 /// Number of parts that a receiver's rays are divided into. Each part is a lattice with a random shift of its
-/// own, so that the differences between parts tell the error of their mean. This estimate is too high, if
+/// own, so that the differences between parts show the error of their mean. This estimate is too high, if
 /// anything, as the mean over a texel's neighbours is better.
 constexpr int kLobeParts = 16;
 

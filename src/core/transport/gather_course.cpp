@@ -15,11 +15,11 @@ constexpr int kFewestGathers = 2;
 /// azimuths, since one more gather of few azimuths then costs little beside them.
 constexpr double ending_share(int last_azimuths) { return last_azimuths < 12 ? 0.6 : 0.4; }
 
-/// The error left after a gather is at most this many times what the class means tell, on bricks, cobbles and
+/// The error left after a gather is at most this many times what the class means show, on bricks, cobbles and
 /// fractal ground at reliefs from .1 to 1.
 constexpr double kBeyondClasses = 1.5;
 
-/// RMS of the error without its noise. Under the sky the class means tell it. A user-given light may be
+/// RMS of the error without its noise. Under the sky the class means show it. A user-given light may be
 /// anywhere, so there all changes count.
 double lasting_change(const ChangeSum& change, bool under_sky) {
   double squares = 0;

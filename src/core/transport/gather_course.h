@@ -18,8 +18,8 @@ constexpr double kFading = 0.6;
 
 constexpr int kMostGathers = 64;
 
-/// Gathers that tell how many are needed: the first tells the error of the start, the second the part of it
-/// that lives longer.
+/// Gathers from which their number is planned: the first shows the error of the start, the second the part of
+/// it that persists longer.
 constexpr int kTellingGathers = 2;
 
 /// What a gather would change with a step weight of 1, summed over some receivers.

@@ -110,8 +110,8 @@ struct Candidate {
   double cost = 0;
 };
 
-/// The most azimuths to try. Under the sky more of them tell little that fewer do not; with a sun, which
-/// lights one side of a roof and not the other, they tell much.
+/// The most azimuths to try. Under the sky more azimuths add little; with a sun, which lights one side of a
+/// roof and not the other, they add much.
 constexpr int most_azimuths(double unevenness) { return unevenness > 1 ? 256 : 64; }
 
 /// Chooses the fewest azimuths that, together with the error of sampling, leave no more than the error

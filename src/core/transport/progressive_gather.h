@@ -16,11 +16,11 @@ namespace heightlight {
 /// between −κ and κ. Chebyshev's weights (Golub and Varga 1961, eq. 2.13)
 ///     E_{k+1} = E_{k−1} + w_{k+1} (direct + F ρ E_k − E_{k−1}),   w_1 = 1, w_2 = 1/(1 − κ²/2),
 ///     w_{k+1} = 1/(1 − κ² w_k/4)
-/// make the error shrink by q = (1 − √(1 − κ²))/κ, instead of κ, from one gather to the next. The error lives
-/// longest in the deepest places. κ is taken as ρ times the mean of 1 − A, weighted by its fourth power and
-/// area, which tells how much of the surface is seen by the places that see most of it. (Of the κ tried, the
-/// best was within 0.1 of that on bricks at reliefs of .1 and .4, bowls and trenches, at ρ of .8 and .95.
-/// With a lower power deep wells take a gather or two longer; with a higher power open ground does.)
+/// make the error shrink by q = (1 − √(1 − κ²))/κ, instead of κ, from one gather to the next. The error
+/// persists longest in the deepest places. κ is taken as ρ times the mean of 1 − A, weighted by its fourth
+/// power and area, which tells how much of the surface is seen by the places that see most of it. (Of the κ
+/// tried, the best was within 0.1 of that on bricks at reliefs of .1 and .4, bowls and trenches, at ρ of .8
+/// and .95. With a lower power deep wells take a gather or two longer; with a higher power open ground does.)
 ///
 /// No azimuth is walked for one gather alone. The sums that belong to E_k, N_k of what is seen and W_k of the
 /// weights, continue as

@@ -56,7 +56,7 @@ TexelVector WalkedBounces::next(const TexelVector& last, const TexelVector& sum)
 }
 
 TexelVector WalkedBounces::follow(const TexelVector& field, const Likeness& likeness) {
-  // Before the first walk of this sequence the field before is another one, and tells no ratio.
+  // Before the first walk of this sequence the field before is another one, and gives no ratio.
   const bool negligible = azimuths_ > 0 && likeness.size < kNegligible * walk_.error;
   TexelVector next = negligible ? to_texels(likeness.ratio * as_eigen(field)) : walk(field, likeness);
   before_ = field;
