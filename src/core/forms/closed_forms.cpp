@@ -8,7 +8,7 @@ namespace {
 using Inputs = const ModelInputs&;
 using Evaluate = double (*)(Inputs, double albedo);
 
-/// A line of the list; a form says NaN outside its domain.
+/// Makes an entry of the list of forms. `evaluate` returns NaN outside the form's domain.
 ClosedForm make_form(const FormText& text, AoKind kind, ExtraInput extra, Evaluate evaluate) {
   return {.name = text.name,
           .description = text.formula,
@@ -25,7 +25,7 @@ ClosedForm make_form(const FormText& text, AoKind kind, ExtraInput extra, Evalua
           }};
 }
 
-/// The notes' form as renderers use it.
+/// The notes' form with a value everywhere, as renderers need it.
 constexpr FormText kGuardedText{"notes_guarded", "F0 + rho F1/(1 - rho tau), 1 outside its domain",
                                 kNotesText.source, ""};
 

@@ -14,14 +14,14 @@ void check_size(const Map& map, const Surface& surface) {
   }
 }
 
-/// (1 − A)/n_z: how much of the surface's area is seen by it. 0 where missing.
+/// (1 − A)/n_z: how much a texel is seen by the rest of the surface, by its area. 0 where missing.
 double seen_weight(const Map& sky_view_factor, const Surface& surface, std::size_t i) {
   const double sky = double{sky_view_factor.values[i]};
   if (std::isnan(sky)) return 0;
   return (1 - clamp_share(sky)) / double{surface.normal.values[i].z};
 }
 
-/// Half of the Gaussian, from its middle to 3 σ.
+/// Half of a Gaussian, from its middle to 3 σ, not normalized.
 std::vector<double> half_kernel(double sigma) {
   std::vector<double> kernel;
   for (int k = 0; k <= static_cast<int>(std::ceil(3 * sigma)); ++k) {
@@ -30,7 +30,7 @@ std::vector<double> half_kernel(double sigma) {
   return kernel;
 }
 
-/// Convolves with the kernel along rows (step (0, 1)) or columns (step (1, 0)).
+/// Convolves with the kernel along the rows or along the columns.
 Image<double> blur_along(const Image<double>& values, const std::vector<double>& kernel, bool along_rows,
                          bool wraps) {
   Image<double> result(values.width, values.height);

@@ -9,12 +9,12 @@ using Terrain = const TerrainInputs&;
 
 double surface_share(Terrain in) { return 1 - clamp_share(in.sky_view_factor.value); }
 
-/// What a series with the ratio ρ_w × share adds up to, of its first term. At a ratio of 1, from which light
-/// has no way out, without bound.
+/// Sum of a geometric series by its first term and its ratio, which is ρ_w times the share of the surface
+/// that is seen. Infinite at a ratio of 1, where nothing escapes.
 double sum_series(double first, double ratio) { return first > 0 ? first / (1 - ratio) : 0; }
 
-/// n makes the first bounce and the ratio of all later ones, as in forms.h; D_w/A_w is how bright the
-/// neighbourhood is against its openness, 1 under an even sky.
+/// n gives the first bounce and the ratio of all later ones, as in forms.h. D_w/A_w is the neighbourhood's
+/// direct irradiance relative to its openness, 1 under an even sky.
 double add_seen(Terrain in, SeenSkyViewFactor<double> seen) {
   const double brightness = in.window.seen_sky > 0 ? in.window.seen_direct / in.window.seen_sky : 0;
   const double reflected =

@@ -10,7 +10,7 @@
 namespace heightlight {
 namespace {
 
-/// Sums over stretches of a line of values that ends at its ends, or repeats.
+/// Sums over stretches of a line of values that stops at its ends, or repeats.
 class LineSums {
  public:
   LineSums(std::size_t length, bool repeats) : repeats_(repeats), sums_(length + 1) {}
@@ -20,7 +20,7 @@ class LineSums {
     for (std::size_t i = 0; i + 1 < sums_.size(); ++i) sums_[i + 1] = sums_[i] + value(i);
   }
 
-  /// From `middle − radius` to `middle + radius`, both included.
+  /// The sum from `middle − radius` to `middle + radius`, both included.
   double around(std::int64_t middle, std::int64_t radius) const {
     return up_to(middle + radius + 1) - up_to(middle - radius);
   }
@@ -38,12 +38,12 @@ class LineSums {
   std::vector<double> sums_;
 };
 
-/// Texels that a radius reaches; more than any map's is never needed.
+/// Number of texels that a radius reaches; limited to 2³⁰, more than any map needs.
 std::int64_t texels_within(double radius, double spacing) {
   return static_cast<std::int64_t>(std::min(radius / spacing * (1 + 1e-12), 0x1p30));
 }
 
-/// Sums over the box, by rows and then by columns.
+/// Replaces each value by the sum over the box around it, first along rows and then along columns.
 void sum_box(const Surface& surface, double radius, TexelVector& values) {
   const Image<float>& map = surface.map.height;
   const std::int64_t across = texels_within(radius, surface.map.spacing.x);

@@ -26,11 +26,12 @@ ConeLobe make_cone_lobe(const Gloss& gloss, double view_angle, int count, const 
 }
 
 double cone_share(const ConeLobe& lobe, const ConeArguments& arguments) {
-  const double tilt = arguments.view_angle - arguments.apart;  // of the bent normal, toward the mirrored view
+  const double tilt = arguments.view_angle - arguments.apart;  // angle of the bent normal from the normal,
+                                                               // toward the mirrored view
   const auto bent_x = static_cast<float>(std::sin(tilt));
   const auto bent_z = static_cast<float>(std::cos(tilt));
   const auto least = static_cast<float>(std::cos(arguments.half_angle));
-  std::array<float, ConeLobe::kLanes> sums{};  // lanes of their own, which compilers make vectors of
+  std::array<float, ConeLobe::kLanes> sums{};  // separate sums, so that compilers can vectorize the loop
   for (std::size_t i = 0; i < lobe.weight.size(); i += ConeLobe::kLanes) {
     for (std::size_t k = 0; k < ConeLobe::kLanes; ++k) {
       const float cosine = lobe.x[i + k] * bent_x + lobe.z[i + k] * bent_z;

@@ -7,8 +7,8 @@
 
 namespace heightlight {
 
-/// A lobe as many cones are held against: its directions in the plane of normal and mirrored view, x along
-/// the view's mirrored tangent, and what they stand for.
+/// Samples of a lobe that many cones are compared with: directions in the plane of the normal and the
+/// mirrored view, x along the tangent of the mirrored view, and their weights.
 struct ConeLobe {
   static constexpr std::size_t kLanes = 8;
 
@@ -16,11 +16,11 @@ struct ConeLobe {
   float whole = 0;                  ///< sum of weights
 };
 
-/// Of `count` samples.
+/// Makes a lobe of `count` samples, seen at `view_angle` from the normal, radians.
 ConeLobe make_cone_lobe(const Gloss& gloss, double view_angle, int count, const LatticeShift& shift);
 
-/// Eq. 30 of Jimenez 2016: the share of the lobe inside the cone. The lobe is that of the arguments'
-/// roughness and view.
+/// Eq. 30 of Jimenez 2016: the share of the lobe inside the cone. The lobe must have the roughness and the
+/// view of the arguments.
 double cone_share(const ConeLobe& lobe, const ConeArguments& arguments);
 
 }  // namespace heightlight

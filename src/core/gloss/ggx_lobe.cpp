@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
 
-/// Point i of a Fibonacci lattice of `count`, shifted around the unit square.
+/// Point i of a Fibonacci lattice of `count` points, shifted around the unit square.
 Eigen::Array2d lattice_point(int i, int count, const LatticeShift& shift) {
   const Eigen::Array2d point((i + 0.5) / count + shift.u, i * (std::numbers::phi - 1) + shift.v);
   return point - point.floor();
@@ -52,7 +52,8 @@ void sample_ggx(const Gloss& gloss, const Eigen::Vector3d& view, int count, cons
     const GgxDirection<double> light =
         mirror_visible_normal<double>({view.x(), view.y(), view.z()}, gloss.roughness, point.x(), point.y());
     const Direction<double>& d = light.direction;
-    // The density of light is D G₁(view)/(4 n·view), which leaves Fresnel's factor and the light's shadowing.
+    // The directions' density is D G₁(view)/(4 n·view). The weight is the rest: Fresnel's factor and the
+    // shadowing of `light`.
     const double weight =
         d.z > 0 ? schlick(gloss.reflectance, light.facet_cosine) * smith_shadowing(gloss.roughness, d.z)
                 : 0.0;

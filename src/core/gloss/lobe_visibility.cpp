@@ -10,7 +10,7 @@
 namespace heightlight {
 namespace {
 
-/// A normal's frame, as columns; world axes from its own.
+/// The frame of a normal, as columns: takes vectors from the frame to the world's axes.
 Eigen::Matrix3d frame_of(const Eigen::Vector3d& n) {
   const NormalFrame<double> frame({n.x(), n.y(), n.z()});
   Eigen::Matrix3d axes;
@@ -19,8 +19,8 @@ Eigen::Matrix3d frame_of(const Eigen::Vector3d& n) {
   return axes;
 }
 
-/// Fills the workspace's directions and weights, part after part. False where the receiver is missing or
-/// faces away.
+/// Fills the workspace's directions and weights, part after part. Returns false where the receiver is missing
+/// or faces away from the view.
 bool aim_lobe(const Surface& surface, int row, int column, const LookedLobe& lobe, LobeWorkspace& work) {
   if (std::isnan(surface.map.height(row, column))) return false;
   const Eigen::Matrix3d axes = frame_of(as_eigen(surface.normal(row, column)).cast<double>().normalized());
@@ -40,7 +40,7 @@ bool aim_lobe(const Surface& surface, int row, int column, const LookedLobe& lob
   return true;
 }
 
-/// Of weights of directions and which of them are open.
+/// The open share and its error, from the directions' weights and which directions are open.
 LobeShare share_of(const LobeWorkspace& work) {
   const std::size_t in_part = work.weights.size() / kLobeParts;
   double whole = 0;
@@ -56,7 +56,7 @@ LobeShare share_of(const LobeWorkspace& work) {
     open += part_open.at(part);
   }
   LobeShare share{.open = open / whole};
-  // The ratio's error to first order (Cochran 1977, section 2.11).
+  // The error of the ratio to first order (Cochran 1977, section 2.11).
   double squares = 0;
   for (std::size_t part = 0; part < kLobeParts; ++part) {
     const double rest = part_open.at(part) - share.open * part_whole.at(part);

@@ -13,7 +13,7 @@ namespace heightlight {
 namespace {
 
 constexpr int kMostLobeRays = 65536;
-constexpr int kFirstLobeRays = 64;  ///< where an error is wanted
+constexpr int kFirstLobeRays = 64;  ///< where `error` decides the number of rays
 
 void check_specular_options(const SpecularOptions& options) {
   check_gloss(options.gloss);
@@ -26,7 +26,7 @@ void check_specular_options(const SpecularOptions& options) {
   }
 }
 
-/// Sums of one row of texels.
+/// Sums over one row of texels.
 struct RowErrors {
   double squares = 0;
   std::size_t count = 0;
@@ -67,8 +67,8 @@ SpecularOcclusion look_with_rays(const Surface& surface, const SpecularOptions& 
   return found;
 }
 
-/// How many rays to try next, that so many are off an error by. It falls with the root of their number at
-/// least.
+/// Number of rays to try next, when `found` misses the error. The error falls at least with the root of their
+/// number.
 int more_rays(const SpecularOcclusion& found, double error) {
   const double ratio = found.rmse / error;
   return std::min(kMostLobeRays, (ratio * ratio > 2 ? 4 : 2) * found.rays);

@@ -15,7 +15,7 @@ namespace heightlight {
 namespace {
 
 constexpr double kRightAngle = std::numbers::pi / 2;
-constexpr double kLeastRoughness = 1e-4;  // a mirror's lobe has no width to divide by
+constexpr double kLeastRoughness = 1e-4;  // the lobe of a mirror has no width to divide by
 constexpr int kTableSamples = 4096;
 constexpr int kJudgeSamples = 4096;
 constexpr int kLevels = 255;
@@ -30,14 +30,14 @@ double apart_at(const TableApart<double>& axis, double place) {
 
 double roughness_at(double place) { return std::max(place * place, kLeastRoughness); }
 
-/// What the table says at places in [0, 1] of x and y, for a lobe.
+/// The table's value at the places x and y in [0, 1], for a lobe.
 double value_at(const ConeLobe& lobe, double x, double y, double roughness, double view_angle) {
   const double half_angle = x * kRightAngle;
   return cone_share(
       lobe, {half_angle, apart_at(TableApart<double>(half_angle, roughness), y), roughness, view_angle});
 }
 
-/// Between which two of the table's values along an axis, and where.
+/// A place on one of the table's axes: the index of the value below, and the share of the step beyond it.
 struct TablePlace {
   int below = 0;
   double share = 0;

@@ -8,21 +8,21 @@
 
 // The Earth under a map is a sphere of radius R, to second order the paraboloid −r²/2R below the plane that
 // touches it in the map's middle. Rays of light bend downwards, with a curvature k/R: to second order, a ray
-// is straight over the paraboloid −(1 − k) r²/2R = −κ r². So heights H′(x) = H(x) − κ |x|² are those of the
-// world in which light travels straight. Seen from x₀,
+// is straight over the paraboloid −(1 − k) r²/2R = −κ r². The heights H′(x) = H(x) − κ |x|² therefore
+// describe a world in which light travels straight. Seen from x₀,
 //     H′(x) − H′(x₀) = H(x) − H(x₀) − κ |x − x₀|² − 2 κ x₀·(x − x₀):
-// the drop κ d² that surveyors know, and a term that is linear in x. Linear terms shear all lines of sight
-// alike. Which place hides which is therefore right everywhere, not only in the middle, and no method needs
-// to know of it.
+// this contains the drop κ d² that surveyors know, and a term that is linear in x. Linear terms shear all
+// lines of sight alike. Which place hides which is therefore right everywhere, not only in the middle, and no
+// method needs to know of the curvature.
 //
-// The linear term is the tilt of what is level at x₀ against the map's axes: along a unit vector d it has the
-// slope −2 κ x₀·d, and slopes above the place's own horizontal are those in H′ less that. Elevations of
-// horizons and the definitions made of them, and what counts as below the horizontal, take it off. The
-// normal, A, α and moments are those of H′ as it is, whose vectors are tilted by the angle e = 2 κ r. A
-// rotation would not change shares of the hemisphere at all; a shear by the slope e does where the ground is
-// steep. At the corners of a map of 100 km a side, e is 0.0097. A shear of that much changes A by 0.0003 RMS
-// and 0.003 at most on a DEM of mountains, by 0.0008 and 0.005 on a DSM of a harbour and its walls, its mean
-// by less than 0.0001. All of it goes with e: on 20 km it is a fifth.
+// The linear term is the tilt of the horizontal at x₀ against the map's axes: along a unit vector d it has
+// the slope −2 κ x₀·d, and slopes above the place's own horizontal are the slopes in H′ minus that.
+// Elevations of horizons, the definitions made of them, and what counts as below the horizontal are corrected
+// for it. The normal, A, α and the moments are taken from H′ without a correction; their vectors are tilted
+// by the angle e = 2 κ r. A rotation would not change shares of the hemisphere at all; a shear by the slope e
+// does where the ground is steep. At the corners of a map of 100 km a side, e is 0.0097. Such a shear changes
+// A by 0.0003 RMS and 0.003 at most on a DEM of mountains, by 0.0008 and 0.005 on a DSM of a harbour and its
+// walls, and the mean of A by less than 0.0001. All of this is proportional to e: on 20 km it is a fifth.
 
 namespace heightlight {
 namespace {

@@ -27,10 +27,13 @@ class StepMean {
   std::size_t count_ = 0;
 };
 
-/// Lines beside a border whose steps a seam is measured by: an eighth of the map, at least four.
+/// Number of lines beside a border with whose steps the seam is compared: an eighth of the map, at least
+/// four.
 int lines_beside(int count) { return std::max(4, count / 8); }
 
-/// Steps from line to line of one axis: `step(from, to, mean)` adds those between two lines.
+/// Root mean square steps between adjacent lines of one axis: across the border, inside the map, and the
+/// largest of those beside the border. `step(from, to, mean)` of measure_axis adds the steps between two
+/// lines.
 struct AxisSteps {
   double across;
   double inside;
@@ -53,10 +56,10 @@ AxisSteps measure_axis(int count, const Step& step) {
   return {across.root_mean_square(), inside.root_mean_square(), beside};
 }
 
-/// A border along a steep flank or a joint has lines beside it that differ as much; but a single steep line
-/// does not make up for a step of many times what is usual. Where nothing was measured (NaN) comparisons
-/// fail, and there is no seam to speak of. Materials that tile have ratios of at most 1.0 and 2.3, their
-/// crops from 1.1 or 4.9 on.
+/// Whether the border is a seam. At a border along a steep flank or a joint, the lines beside it differ as
+/// much, so that there is no seam; but one steep line does not excuse a step many times as large as usual.
+/// Where nothing was measured (NaN) the comparisons fail, and no seam is reported. Materials that tile have
+/// ratios of at most 1.0 and 2.3; crops of them have at least 1.1 or 4.9.
 bool is_seam(const AxisSteps& steps) {
   constexpr double kAlike = 1.5;
   constexpr double kFar = 4;

@@ -11,7 +11,7 @@
 namespace heightlight {
 namespace {
 
-constexpr double kCut = 4;  // standard deviations; what is beyond has 6e-5 of the weight
+constexpr double kCut = 4;  // in standard deviations; what is beyond has 6e-5 of the weight
 
 /// Weights at distances 0, 1 … texels; they need not sum to 1.
 std::vector<double> gaussian_weights(double sigma_texels) {
@@ -22,13 +22,14 @@ std::vector<double> gaussian_weights(double sigma_texels) {
   return weights;
 }
 
-/// Sums of values and of the weights of those that are present.
+/// Weighted sums of the values that are present, and sums of their weights.
 struct WeightedSums {
   Image<double> values;
   Image<double> weights;
 };
 
-/// Calls body(neighbour, weight) for what is around the i-th of `count` samples along an axis.
+/// Calls body(neighbour, weight) for the neighbours of the i-th of `count` samples along an axis, itself
+/// included.
 template <class Body>
 void for_neighbours(int i, int count, const std::vector<double>& weights, bool tiles, Body&& body) {
   const int radius = static_cast<int>(weights.size()) - 1;

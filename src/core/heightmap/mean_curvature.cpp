@@ -11,7 +11,8 @@ namespace {
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
-/// A sample that is missing between two others goes on straight from what there is.
+/// The samples on both sides of one; where one of them is missing, the surface is continued in a straight
+/// line.
 struct Axis {
   double before = 0;
   double after = 0;
@@ -26,7 +27,7 @@ struct Axis {
   }
 };
 
-/// Heights around one, rows from the top.
+/// Heights of a sample and its eight neighbours, rows from the top.
 using Around = std::array<std::array<double, 3>, 3>;
 
 Around around(const Image<double>& height, int row, int column, bool tiles) {

@@ -16,7 +16,7 @@ struct Recipe {
   MakeShape make;
 };
 
-// Lowest to 0, what is `range` above it to 1.
+// Maps `lowest` to 0 and `lowest + range` to 1.
 Image<float> stretched(Image<float> image, float lowest, float range) {
   for (float& height : image.values) height = range > 0 ? (height - lowest) / range : 0;
   return image;

@@ -8,7 +8,7 @@
 namespace heightlight::synth {
 namespace {
 
-// sin 2πt. The library's sine may differ in its last bit between machines; this one cannot. The argument is
+// sin 2πt. The library's sine may differ in its last bit between machines; this one does not. The argument is
 // folded to a quarter turn, where the Taylor series to x²¹ leaves (π/2)²³/23! ≈ 1e-18.
 double sine_of_turns(double t) {
   t -= std::floor(t + 0.5);
@@ -30,10 +30,11 @@ Image<float> plane(int size) {
   return sample(size, [](double u, double) { return u; });
 }
 
-// The cap of a sphere whose rim, at the level h = 1, has radius r = 0.35 about the centre of the map, and
-// whose depth is A = 0.25, in map widths; so R = (r² + A²)/(2A) = 0.37. At ρ from the centre, inside the rim,
+// A spherical cap. Its rim, at the level h = 1, has radius r = 0.35 about the centre of the map, and its
+// depth is A = 0.25, in map widths; so the sphere's radius is R = (r² + A²)/(2A) = 0.37. At the distance ρ
+// from the centre, inside the rim,
 //   A h = R − √(R² − ρ²),
-// and h = 1 outside. The relief must be a quarter of the width for the sphere to be one.
+// and h = 1 outside. The cap is spherical only at a relief of a quarter of the width.
 Image<float> bowl(int size) {
   constexpr double kRim = 0.35;
   constexpr double kDepth = 0.25;
@@ -47,8 +48,8 @@ Image<float> bowl(int size) {
 }
 
 // h = 0 where |u − ½| < ⅛, else 1: a trench that runs up the image. Its walls lie between two columns of
-// texels, so at half height it is a quarter of the map wide where 8 divides the size; the floor is a texel
-// less.
+// texels, so that at half height it is a quarter of the map wide if the size is a multiple of 8; the floor is
+// one texel narrower.
 Image<float> trench(int size) {
   return sample(size, [](double u, double) { return std::abs(u - 0.5) < 0.125 ? 0.0 : 1.0; });
 }

@@ -6,8 +6,8 @@
 #include "heightmap/synth_noise.h"
 #include "heightmap/synth_shapes.h"
 
-// A wall of ten courses of four bricks. Lengths are map widths, heights are shares of the relief. At the
-// usual relief of a tenth of the width, 0.1 of height is 0.01 of length.
+// A wall of ten courses of four bricks. Lengths are in map widths, heights are shares of the relief. At the
+// usual relief of a tenth of the width, a height of 0.1 is as long as 0.01 map widths.
 
 namespace heightlight::synth {
 namespace {
@@ -15,25 +15,25 @@ namespace {
 constexpr int kCourses = 10;
 constexpr int kBricksPerCourse = 4;
 constexpr double kJoint = 0.014;
-constexpr double kWallSlope = 260;         // relief per width: upright to 2° where the relief is a tenth
-constexpr double kReach = 1 / kWallSlope;  // a brick's wall ends no further out
+constexpr double kWallSlope = 260;         // relief per width: 2° off upright where the relief is a tenth
+constexpr double kReach = 1 / kWallSlope;  // how far a brick's side wall extends beyond its outline, at most
 constexpr double kArris = 0.009;           // breadth of the worn edge
-constexpr double kRaggedness = 0.011;      // most that ragged edges move the outline
-constexpr double kMortarEdge = 0.02;       // mortar lies no further in on a brick
+constexpr double kRaggedness = 0.011;      // how far ragged edges move the outline, at most
+constexpr double kMortarEdge = 0.02;       // how far mortar extends onto a brick, at most
 constexpr double kSound = 2;               // a level that no noise reaches
 static_assert(kMortarEdge >= kArris + kRaggedness, "ragged edges start where they do not show yet");
 
 struct Brick {
   double u, v;  // centre
   double half_width, half_height;
-  double cosine, sine;                  // of its turn in the wall
-  std::array<double, 4> corner_radius;  // left and right above, left and right below
+  double cosine, sine;                  // rotation of the brick in the wall
+  std::array<double, 4> corner_radius;  // upper left, upper right, lower left, lower right
   double top;                           // height of the face's centre
   double tilt_u, tilt_v;                // slope of the face
-  double shift_u, shift_v;              // into the noise fields, so that no two bricks share a face
+  double shift_u, shift_v;              // shift of the noise fields, so that no two bricks share a face
   double roughness;
   double creases;
-  double wear;   // height lost at the arris
+  double wear;   // height lost at the edge
   double spall;  // noise level above which the face has broken off
   double crack;  // depth of its cracks
 };
@@ -77,13 +77,13 @@ std::vector<Brick> lay_wall(std::uint64_t seed) {
   return wall;
 }
 
-/// Where a point lies on a brick.
+/// The position of a point on a brick.
 struct Place {
   double along, down;  // from the centre, on the face
   double outside;      // signed distance to the outline, negative on the brick
 };
 
-// Signed distance to a box whose corners are rounded, each by its own radius.
+// Position on a brick, with the signed distance to a box whose corners are rounded, each by its own radius.
 Place place_on(const Brick& brick, double u, double v) {
   const double du = shorter_way(u - brick.u);
   const double dv = shorter_way(v - brick.v);
@@ -96,7 +96,7 @@ Place place_on(const Brick& brick, double u, double v) {
   return place;
 }
 
-/// The wall's materials, each a height over the map.
+/// The wall's materials, each as a height over the map.
 class Wall {
  public:
   Wall(int size, std::uint64_t seed);
@@ -108,7 +108,7 @@ class Wall {
     std::array<const Brick*, 4> bricks{};
     std::array<Place, 4> places{};
     std::size_t count = 0;
-    double outside = 1;  ///< the least distance to a brick
+    double outside = 1;  ///< smallest signed distance to a brick's outline
   };
 
   Neighbourhood bricks_near(double u, double v) const;
@@ -151,10 +151,10 @@ Wall::Wall(int size, std::uint64_t seed)
       trowel_(26, 60, 0.5, hash_combine(seed, 25)),
       sand_(90, size / 2, 0.75, hash_combine(seed, 26)) {}
 
-// Small pits everywhere that the surface is porous, and a few deep blowholes.
+// Small pits wherever the surface is porous, and a few deep blowholes.
 double Wall::holes(double u, double v) const {
   double depth = 0;
-  const double bent = 0.0035 * jag_(u, v);  // out of round
+  const double bent = 0.0035 * jag_(u, v);  // makes the holes less round
   const Spot pit = pits_(u + bent, v - bent);
   if (pit.distance < 1) depth = (0.06 + 0.14 * pit.chance) * (1 - pit.distance * pit.distance);
   const Spot blowhole = blowholes_(u + bent, v - bent);
@@ -189,8 +189,8 @@ double Wall::face(const Brick& brick, const Place& place, double u, double v) co
   return place.outside > 0 ? h - kWallSlope * place.outside : h;
 }
 
-// Raked out in some places, nearly flush in others, hollowed between the bricks. On a brick it thins out, to
-// nothing at kMortarEdge.
+// The mortar is raked out in some places, nearly flush in others, and hollowed between the bricks. On a brick
+// it thins out to nothing at kMortarEdge.
 double Wall::mortar(double u, double v, double outside) const {
   const double level = 0.04 + 0.7 * smoothstep(-0.5, 0.75, filling_(u, v));
   const double hollow = outside > 0 ? (0.3 + level) * 12 * outside : -outside / kMortarEdge;

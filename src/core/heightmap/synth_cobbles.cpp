@@ -6,23 +6,23 @@
 #include "heightmap/synth_noise.h"
 #include "heightmap/synth_shapes.h"
 
-// Rounded stones: the cells of a power diagram (a Voronoi diagram with sizes) about jittered centres, their
-// corners rounded. Lengths are map widths, heights are shares of the relief.
+// Rounded stones: the cells of a power diagram (a Voronoi diagram with weights) about jittered centres, with
+// rounded corners. Lengths are in map widths, heights are shares of the relief.
 
 namespace heightlight::synth {
 namespace {
 
 constexpr int kRows = 8;
 constexpr int kColumns = 8;
-constexpr int kWindow = 2;  // cells on each side that can touch a stone
+constexpr int kWindow = 2;  // stones up to so many cells away can touch a stone
 constexpr int kNeighbours = (2 * kWindow + 1) * (2 * kWindow + 1) - 1;
 
 struct Centre {
   double u, v;
-  double weight;  // of the power diagram, length²
+  double weight;  // weight in the power diagram, length²
 };
 
-/// Distance from a neighbour's border: offset + slope · (position − centre).
+/// A border with a neighbour. The distance from it is offset + slope · (position − centre).
 struct Border {
   double slope_u, slope_v, offset;
 };
@@ -32,7 +32,7 @@ struct Stone {
   std::array<Border, kNeighbours> borders;
   double top;
   double tilt_u, tilt_v;
-  double shift_u, shift_v;  // into the noise fields
+  double shift_u, shift_v;  // shift of the noise fields
   double shoulder;          // how far in from its outline the stone is rounded
   double drop;              // height lost over the shoulder
   double roughness;
@@ -40,7 +40,7 @@ struct Stone {
 
 int wrapped(int i, int period) { return (i % period + period) % period; }
 
-// May lie outside [0, 1): the neighbours across the map's edge are copies one period away.
+// Centre of a stone. It may lie outside [0, 1): neighbours across the map's edge are copies one period away.
 Centre centre_of(int row, int column, std::uint64_t seed) {
   RandomSequence random(hash_cell(wrapped(column, kColumns), wrapped(row, kRows), seed));
   const double bond = wrapped(row, 2) == 0 ? 0.25 : 0.75;
@@ -133,7 +133,8 @@ const Stone& Paving::stone_at(double u, double v) const {
   return *nearest;
 }
 
-// A shoulder rounded like a quarter ellipse about a worn top; below the outline the stone goes down steeply.
+// Height of a stone: a worn top with a shoulder rounded like a quarter ellipse; beyond the outline it falls
+// steeply.
 double Paving::face(const Stone& stone, double du, double dv, double inside) const {
   const double u = stone.centre.u + du + stone.shift_u;
   const double v = stone.centre.v + dv + stone.shift_v;

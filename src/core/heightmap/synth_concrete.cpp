@@ -5,8 +5,9 @@
 #include "heightmap/synth_shapes.h"
 
 // The notes' second scene (Patapom, "Showtime"): rough concrete, meant for a relief of 0.05 of the width. It
-// was cast against four boards, whose seams stand proud where paste ran between them; bubbles left holes,
-// aggregate shows where the skin is worn away. Lengths are map widths, heights are shares of the relief.
+// was cast against four boards. Their seams stand out where paste ran between the boards, bubbles left holes,
+// and aggregate shows where the skin is worn away. Lengths are in map widths, heights are shares of the
+// relief.
 
 namespace heightlight::synth {
 namespace {

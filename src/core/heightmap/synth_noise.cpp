@@ -5,7 +5,7 @@
 namespace heightlight::synth {
 namespace {
 
-// Cells beyond the period by a few periods at most: cheaper than a division.
+// The cell within the period. Cells are a few periods outside at most, so this is cheaper than a division.
 int wrap(int cell, int period) {
   while (cell < 0) cell += period;
   while (cell >= period) cell -= period;
@@ -14,7 +14,7 @@ int wrap(int cell, int period) {
 
 double fade(double t) { return t * t * t * (t * (t * 6 - 15) + 10); }
 
-// The lattice point's gradient, uniform in a square, times the offset from it.
+// Dot product of the lattice point's gradient, uniform in a square, and the offset from the point.
 double slope(std::uint64_t hash, double x, double y) {
   const double gradient_x = static_cast<std::int32_t>(hash >> 32) * 0x1p-31;
   const double gradient_y = static_cast<std::int32_t>(hash & 0xffffffffU) * 0x1p-31;

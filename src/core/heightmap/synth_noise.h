@@ -7,8 +7,8 @@
 #include "base/parallel.h"
 #include "heightlight/image.h"
 
-// Periodic noise from integer hashes and the four exactly rounded operations and square root only, so that
-// every machine draws the same map. Coordinates are in map widths; everything repeats with period 1.
+// Periodic noise that uses only integer hashes, the four exactly rounded operations and the square root, so
+// that every machine makes the same map. Coordinates are in map widths; everything repeats with period 1.
 
 namespace heightlight::synth {
 
@@ -17,7 +17,7 @@ inline std::uint64_t hash_cell(int x, int y, std::uint64_t seed) {
                           static_cast<std::uint32_t>(x)));
 }
 
-/// Uniform numbers, one after the other.
+/// A sequence of uniform random numbers.
 class RandomSequence {
  public:
   explicit RandomSequence(std::uint64_t seed) : state_(seed) {}
@@ -28,13 +28,14 @@ class RandomSequence {
   std::uint64_t state_;
 };
 
-/// ⌊x⌋ for |x| < 2³¹; the library's floor is a call where the processor's own rounding may not be assumed.
+/// ⌊x⌋ for |x| < 2³¹. The library's floor is a function call where the processor's rounding instruction may
+/// not be assumed.
 inline int floor_to_int(double x) {
   const int truncated = static_cast<int>(x);
   return x < truncated ? truncated - 1 : truncated;
 }
 
-/// A difference of positions, taken across the map's edge where that is shorter: in [-½, ½).
+/// A difference of positions, taken across the map's edge where that is shorter: in [−½, ½).
 inline double shorter_way(double difference) { return difference - floor_to_int(difference + 0.5); }
 
 /// 0 below `low`, 1 above `high`, smooth between.
@@ -68,8 +69,8 @@ class TiledNoise {
   std::uint64_t seed_;
 };
 
-/// Octaves of TiledNoise: frequencies doubling from `first` while they are at most `last`, amplitudes from 1
-/// falling by `persistence`. The first octave is always there.
+/// Octaves of TiledNoise. Their frequencies double from `first` on while they are at most `last`; their
+/// amplitudes start at 1 and fall by the factor `persistence`. The first octave is always there.
 class Octaves {
  public:
   Octaves(int first, int last, double persistence, std::uint64_t seed);
@@ -80,17 +81,17 @@ class Octaves {
   double persistence_;
 };
 
-/// Where a position lies on a spot.
+/// The spot at a position, if there is one.
 struct Spot {
-  double distance = 1;  ///< from the centre in units of the spot's radius; 1 or more is outside
-  double chance = 0;    ///< uniform in [0, 1), the spot's own
+  double distance = 1;  ///< from the spot's centre, in units of its radius; 1 or more is outside
+  double chance = 0;    ///< uniform random number of this spot, in [0, 1)
 };
 
-/// Round spots strewn over `frequency`² cells, each wholly inside one. A share of `coverage` of the cells has
-/// one.
+/// Round spots scattered over `frequency`² cells, each wholly inside a cell. A share `coverage` of the cells
+/// has one.
 class Spots {
  public:
-  /// Radii from `smallest` to `largest` (≤ ½) of a cell, small ones more often.
+  /// Radii range from `smallest` to `largest` (≤ ½) of a cell; small ones are more frequent.
   Spots(int frequency, double coverage, double smallest, double largest, std::uint64_t seed);
   Spot operator()(double u, double v) const;
 
@@ -109,7 +110,7 @@ struct Rows {
   int count = 0;
 };
 
-/// Those rows of the image of height(u, v) at the texel centres.
+/// Returns these rows of the image of height(u, v), sampled at the texel centres.
 template <class Height>
 Image<float> sample_rows(const Rows& rows, const Height& height) {
   Image<float> image(rows.size, rows.count);
@@ -123,7 +124,7 @@ Image<float> sample_rows(const Rows& rows, const Height& height) {
   return image;
 }
 
-/// All of them.
+/// Returns all rows of the image.
 template <class Height>
 Image<float> sample(int size, const Height& height) {
   return sample_rows({.size = size, .first = 0, .count = size}, height);

@@ -5,8 +5,8 @@
 #include "heightlight/image.h"
 #include "heightmap/synth_noise.h"
 
-// The heightmaps behind synthesize(); each takes the size (and the seed, where it matters) and returns
-// heights whose meaning stands in heightlight/synth.h. The natural ones are not yet stretched to [0, 1].
+// The heightmaps behind synthesize(). Each function takes the size, and the seed where it matters, and
+// returns heights as described in heightlight/synth.h. The natural ones are not yet stretched to [0, 1].
 
 namespace heightlight::synth {
 

@@ -4,8 +4,8 @@
 #include "heightmap/synth_noise.h"
 #include "heightmap/synth_shapes.h"
 
-// The notes' first scene (Patapom, "Showtime"): solids on a floor, one map width of which they rise 0.45.
-// What is round is round at that relief.
+// The notes' first scene (Patapom, "Showtime"): solids on a floor, which rise up to 0.45 map widths. Round
+// solids are truly round at that relief.
 
 namespace heightlight::synth {
 namespace {
@@ -40,7 +40,7 @@ double half_torus(double x, double y, double radius, double thickness) {
   return std::sqrt(std::max(0.0, square(thickness) - square(std::sqrt(square(x) + square(y)) - radius)));
 }
 
-/// An upright wall around an open middle.
+/// An upright ring wall around an open middle.
 double well(double x, double y, double outer, double inner, double height) {
   return cylinder(x, y, outer, height) - cylinder(x, y, inner, height);
 }

@@ -10,18 +10,18 @@
 #include "screenspace/point_kernel.h"
 #include "screenspace/relaxed_points.h"
 
-// Of Umenhoffer et al. 2009, section 4.1: a point (ξ_x, ξ_y, ξ_z) of the unit cube becomes the direction
+// From Umenhoffer et al. 2009, section 4.1: a point (ξ_x, ξ_y, ξ_z) of the unit cube becomes the direction
 //     ω = T cos(2π ξ_x) √ξ_y + B sin(2π ξ_x) √ξ_y + N √(1 − ξ_y),
-// distributed like the cosine, and the distance r = μ⁻¹(ξ_z): R ξ_z² for the square root, R for the step, and
-// −R/4 ln(1 − ξ_z (1 − e⁻⁴)) for the exponential.
-// With I = 1 where the sample is open, O = Σ I/n and
+// whose density is proportional to the cosine, and the distance r = μ⁻¹(ξ_z): R ξ_z² for the square root, R
+// for the step, and −R/4 ln(1 − ξ_z (1 − e⁻⁴)) for the exponential. With I = 1 where the sample is open, O =
+// Σ I/n and
 //     W = Σ I / (n − Σ (1 − I) a).
 // Where the albedo a is the same everywhere, W = O/(1 − a (1 − O)).
 
 namespace heightlight {
 namespace {
 
-/// μ⁻¹, over R.
+/// μ⁻¹(xi)/R.
 double distance_share(FuzzyMeasure measure, double xi) {
   switch (measure) {
     case FuzzyMeasure::root:
@@ -58,7 +58,7 @@ void check_options(const AmbientTransferOptions& options) {
   }
 }
 
-/// Obscurance, then Σ (1 − I) a / n per albedo that varies.
+/// Returns the obscurance, then Σ (1 − I) a / n per varying albedo.
 std::vector<Map> trace(const DepthBuffer& depth, const std::vector<const Map*>& varying,
                        const AmbientTransferOptions& options) {
   const std::vector<TangentPoint> points = tangent_points(options);

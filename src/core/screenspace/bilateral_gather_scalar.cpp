@@ -9,13 +9,13 @@
 namespace heightlight {
 namespace {
 
-/// Index along an axis, around the torus of a tiling map; −1 where nothing is.
+/// Index along an axis, wrapped on a tiling map; −1 outside an open map.
 int find(int i, int count, Boundary boundary) {
   if (i >= 0 && i < count) return i;
   return boundary == Boundary::tile ? ((i % count) + count) % count : -1;
 }
 
-/// Adds the neighbour's results where it lies on the receiver's surface.
+/// Calls add(i, j) for the texels of the window that lie on the receiver's surface.
 template <class Add>
 void for_neighbours(const GatherPass& pass, int row, int column, Add&& add) {
   const DepthBuffer& depth = pass.depth;

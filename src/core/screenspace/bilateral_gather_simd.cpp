@@ -1,5 +1,5 @@
-// The lanes hold neighbouring texels of a row. The arithmetic is bilateral_gather_scalar.cpp's; so is what it
-// leaves over at the row's ends.
+// The lanes hold neighbouring texels of a row. The arithmetic is the same as in bilateral_gather_scalar.cpp,
+// which also handles the row's ends.
 
 #include <algorithm>
 #include <cassert>
@@ -21,7 +21,7 @@ using VF = hn::Vec<F>;
 constexpr F kF;
 constexpr int kWindow = kGatherBefore + 1 + kGatherAfter;
 
-/// Rows of the window around a row, −1 where nothing is.
+/// Rows of the window around a row; −1 where there is none.
 std::array<int, kWindow> window_rows(const DepthBuffer& depth, int row) {
   std::array<int, kWindow> rows{};
   for (int i = 0; i < kWindow; ++i) {
@@ -36,7 +36,7 @@ std::array<int, kWindow> window_rows(const DepthBuffer& depth, int row) {
 
 constexpr std::size_t kMostResults = 6;  // three sums and a bent normal
 
-/// Means of the receivers from `column` on; all of their windows lie inside the row.
+/// Means for the receivers from `column` on, whose windows all lie inside the row.
 HWY_INLINE void gather_lanes_at(const GatherPass& pass, const std::array<int, kWindow>& rows, int row,
                                 int column, std::vector<Map>& means) {
   const DepthBuffer& depth = pass.depth;
@@ -63,7 +63,7 @@ HWY_INLINE void gather_lanes_at(const GatherPass& pass, const std::array<int, kW
                                hn::Mul(slope_y, hn::LoadU(kF, depth.row_slope_y.values.data() + there)));
       const VF cosine = hn::Mul(hn::Mul(normal_z, hn::LoadU(kF, depth.row_normal_z.values.data() + there)),
                                 hn::Add(level, hn::Set(kF, 1.0F)));
-      const auto is_near = hn::Le(hn::Mul(hn::Abs(above), normal_z), tolerance);  // never of NaN
+      const auto is_near = hn::Le(hn::Mul(hn::Abs(above), normal_z), tolerance);  // false for NaN
       const auto counts = hn::And(is_near, hn::Ge(cosine, least_cosine));
       count = hn::Add(count, hn::IfThenElseZero(counts, hn::Set(kF, 1.0F)));
       for (std::size_t c = 0; c < means.size(); ++c) {
@@ -72,7 +72,7 @@ HWY_INLINE void gather_lanes_at(const GatherPass& pass, const std::array<int, kW
       }
     }
   }
-  // A missing receiver counts nobody, not even itself: 0 / 0.
+  // A missing receiver counts no neighbour, not even itself: 0 / 0 is NaN.
   for (std::size_t c = 0; c < means.size(); ++c) {
     hn::StoreU(hn::Div(sums[c], count), kF, means[c].values.data() + here);
   }
@@ -82,7 +82,7 @@ void gather_lanes(const GatherPass& pass, int row, std::vector<Map>& means) {
   assert(means.size() <= kMostResults);
   const int lanes = static_cast<int>(hn::Lanes(kF));
   const std::array<int, kWindow> rows = window_rows(pass.depth, row);
-  const int last = pass.depth.width - kGatherAfter - lanes;  // from where a vector may begin
+  const int last = pass.depth.width - kGatherAfter - lanes;  // the last column where a vector may begin
   int column = kGatherBefore;
   for (; column <= last; column += lanes) gather_lanes_at(pass, rows, row, column, means);
   gather_row_scalar(pass, row, 0, std::min(kGatherBefore, pass.depth.width), means);

@@ -37,8 +37,9 @@ GtaoPass make_pass(const DepthBuffer& depth, const SliceTables& tables, const Gt
   return pass;
 }
 
-/// What a frame counts for. In an accumulation buffer the newest counts a, and each before it 1 − a times the
-/// one after it; those six turns before are of the same directions, and count with it.
+/// Weight of a frame. In an accumulation buffer the newest frame has the weight a, and each frame before it 1
+/// − a times the weight of the next. Frames that are six turns apart have the same directions, and share one
+/// weight.
 float frame_weight(const GtaoOptions& options, int frame, int frames) {
   if (options.accumulation <= 0) return 1 / static_cast<float>(frames);
   const double kept = 1 - options.accumulation;
@@ -58,7 +59,7 @@ GtaoSums make_line(int columns, const GtaoOptions& options) {
   return line;
 }
 
-/// The sums of all frames, over what they sum to in the open: A, α, then what else was asked for.
+/// Sums over all frames, divided by what they are in the open: A, α, then the others that were asked for.
 std::vector<Map> trace(const DepthBuffer& depth, const GtaoOptions& options) {
   const std::size_t results = 2 + (options.divide_by_open ? 1 : 0) + (options.bent_normal ? 3 : 0);
   std::vector<Map> sums(results, Map(depth.width, depth.height));

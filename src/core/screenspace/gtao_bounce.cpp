@@ -9,7 +9,7 @@
 namespace heightlight {
 namespace {
 
-/// A map in the depth buffer's own order, 0 where nothing is.
+/// Copies a map to the layout of the depth buffer's heights; 0 where there is no sample.
 std::vector<float> lay_out(const DepthBuffer& depth, const Map& map) {
   std::vector<float> values(depth.heights.size(), 0.0F);
   parallel_for(depth.height, [&](std::int64_t i) {

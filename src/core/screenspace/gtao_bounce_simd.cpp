@@ -1,4 +1,4 @@
-// The arithmetic is gtao_bounce_scalar.cpp's.
+// The arithmetic is the same as in gtao_bounce_scalar.cpp.
 
 #include <utility>
 
@@ -14,7 +14,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace heightlight::HWY_NAMESPACE {
 
-/// Radiance of a sample as each receiver sees it; their own where there is no sample.
+/// Radiance of a sample as each receiver sees it; the receiver's own radiance where there is no sample.
 template <int kTaps>
 HWY_INLINE Lanes sample_radiance(const BounceSlicePass& pass, const Receivers& at,
                                  const SliceSample* sample) {

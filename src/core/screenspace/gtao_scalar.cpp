@@ -9,7 +9,7 @@ namespace {
 
 constexpr float kHalfPi = std::numbers::pi_v<float> / 2;
 
-/// A receiver, its tangent plane and its normal's z.
+/// A receiver with its tangent plane and its normal's z.
 struct Receiver {
   int row = 0;
   int column = 0;
@@ -35,7 +35,7 @@ float highest_slope(const GtaoPass& pass, const std::vector<SliceSample>& side, 
   return highest;
 }
 
-/// Lines 18 to 25 with the falloff of section 4.3 and eq. 13; back from the cosine to its slope.
+/// Lines 18 to 25 with the falloff of section 4.3 and eq. 13; returns the slope of the resulting cosine.
 float attenuated_slope(const GtaoPass& pass, const std::vector<SliceSample>& side, const Receiver& at) {
   float horizon = -1;
   for (const SliceSample& sample : side) {

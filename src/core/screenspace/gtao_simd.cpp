@@ -1,4 +1,4 @@
-// The arithmetic is gtao_scalar.cpp's.
+// The arithmetic is the same as in gtao_scalar.cpp.
 
 #include "screenspace/gtao_kernel.h"
 
@@ -24,7 +24,7 @@ HWY_INLINE Lanes highest_slopes(const GtaoPass& pass, const std::vector<SliceSam
   return highest;
 }
 
-// No product is fused where it decides which branch of eq. 13 a sample takes.
+// Products are not fused where they decide which branch of eq. 13 a sample takes.
 template <int kTaps>
 HWY_INLINE Lanes attenuated_slopes(const GtaoPass& pass, const std::vector<SliceSample>& side,
                                    const Receivers& at) {
@@ -60,14 +60,14 @@ struct BunchSums {
   std::array<Lanes, 3> bent;
 };
 
-/// What is summed beside A.
+/// What is summed besides A.
 struct WantedSums {
   bool open = false;
   bool solid = false;
   bool bent = false;
 };
 
-/// `x`, `y`: the side's direction.
+/// Adds what one side sees; (`x`, `y`) is the side's direction.
 HWY_INLINE void add_side(const Lanes& slopes, const Receivers& at, float x, float y, const WantedSums& wanted,
                          BunchSums& sums) {
   const VF one = hn::Set(kF, 1.0F);

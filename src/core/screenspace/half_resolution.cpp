@@ -8,14 +8,15 @@
 #include "screenspace/bilateral_gather.h"
 
 // Jimenez et al. 2016, section 4.3: occlusion at half resolution, "bilaterally upscaled to full resolution".
-// Of every 2 × 2 texels the upper left one's depth and normal are kept. Back at full resolution a texel takes
-// the four nearest results by their bilinear weights, as far as they lie on its own surface; all four where
-// none does.
+// Of every 2 × 2 texels the depth and the normal of the upper left one are kept. At full resolution a texel
+// takes the mean, by bilinear weights, of those among the four nearest results that lie on its own surface;
+// of all four where none does.
 
 namespace heightlight {
 namespace {
 
-/// Where the half buffer's texels come from, and back.
+/// Takes texels of the half-resolution buffer to full resolution (`source`) and back (`place`), along one
+/// axis.
 struct Halving {
   int full = 1;
   int half = 1;
@@ -46,9 +47,9 @@ Surface pick_quarter(const DepthBuffer& depth) {
   return quarter;
 }
 
-/// One of the four results about a texel.
+/// One of the four results around a texel.
 struct Tap {
-  int row = 0;  ///< of the half buffer
+  int row = 0;  ///< row and column in the half-resolution buffer
   int column = 0;
   float weight = 0;  ///< bilinear
   bool is_same = false;
@@ -75,7 +76,7 @@ std::array<Tap, 4> find_taps(const DepthBuffer& depth, const Halving& rows, cons
     tap.row = wrap_or_clamp(top + below, rows.half, depth.boundary);
     tap.column = wrap_or_clamp(left + beside, columns.half, depth.boundary);
     tap.weight = (below == 1 ? down : 1 - down) * (beside == 1 ? right : 1 - right);
-    if (tap.weight <= 0) continue;  // as three of four are where a texel was kept
+    if (tap.weight <= 0) continue;  // three of the four weights are 0 where the texel itself was kept
     const NeighbourPlace place{.row = rows.source(tap.row),
                                .column = columns.source(tap.column),
                                .x = static_cast<float>((beside - u + left) * 2 * depth.spacing.x),

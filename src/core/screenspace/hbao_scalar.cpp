@@ -6,7 +6,7 @@
 namespace heightlight {
 namespace {
 
-/// What one side hides, from the receiver at (row, column) up to whose tangent plane nothing is.
+/// What one side hides from the receiver at (row, column). Only what rises above its tangent plane counts.
 float hidden_by(const HbaoPass& pass, const std::vector<SliceSample>& side, int row, int column,
                 float tangent) {
   const DepthBuffer& depth = pass.depth;

@@ -1,4 +1,4 @@
-// The arithmetic is hbao_scalar.cpp's.
+// The arithmetic is the same as in hbao_scalar.cpp.
 
 #include "screenspace/hbao_kernel.h"
 
@@ -16,7 +16,7 @@ HWY_INLINE VF sine_of_slope(VF slope) {
   return hn::Div(slope, hn::Sqrt(hn::MulAdd(slope, slope, hn::Set(kF, 1.0F))));
 }
 
-/// Without attenuation only the horizon matters: what is hidden is sin h − sin t.
+/// Without attenuation only the highest horizon matters: sin h − sin t is hidden.
 template <int kTaps>
 HWY_INLINE void hide_fully(const HbaoPass& pass, const std::vector<SliceSample>& side, const Receivers& at,
                            const Lanes& tangent, Lanes& open) {

@@ -14,7 +14,7 @@ using Albedos = std::vector<SurfaceAlbedo>;
 
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
-/// From reliefs to world units. A level map has no relief to measure by, and nothing to reach for.
+/// Converts the radius from reliefs to world units. A level map has no relief; its radius stays as it is.
 template <class Options>
 Options in_world_units(Options options, const DepthBuffer& depth) {
   if (std::isfinite(options.radius) && depth.relief > 0) options.radius *= depth.relief;
@@ -44,7 +44,7 @@ std::string in_words(const GtaoOptions& options) {
   return words;
 }
 
-/// `options` has its radius in reliefs.
+/// A line of the table for GTAO. The radius in `options` is in reliefs.
 ScreenSpaceMethod gtao_line(const GtaoOptions& options, bool shown = false) {
   return {.name = "gtao",
           .parameters = in_words(options),
@@ -67,14 +67,14 @@ struct Preset {
   int slices, steps;
 };
 
-/// The usual four, and the single direction of Jimenez et al. 2016, of twelve steps.
+/// The four usual presets, and the one of Jimenez et al. 2016: a single direction of twelve steps.
 constexpr Preset kPresets[] = {{1, 2}, {2, 2}, {3, 3}, {9, 3}, {1, 6}};
 
 /// Radius of the variants below: the best of those tried on four maps.
 constexpr double kUsualRadius = 1;
 
-/// The last methods, of one slice: all of those reaches in squares of sixteen turns, one without turns, one
-/// of 96.
+/// Sets the number of directions of three methods of one slice that differ only in their noise: the last
+/// method has 96 turns, the one before it none, and one with 16 turns comes earlier.
 void number_directions(std::vector<ScreenSpaceMethod>& methods) {
   const std::size_t last = methods.size() - 1;
   methods[last].directions = 96;
@@ -102,7 +102,7 @@ void add_gtao_presets(std::vector<ScreenSpaceMethod>& methods) {
   }
 }
 
-/// The 3 × 3 preset, one thing changed at a time.
+/// Variants of the 3 × 3 preset, each with one thing changed.
 void add_gtao_variants(std::vector<ScreenSpaceMethod>& methods) {
   const GtaoOptions preset = gtao_preset(3, 3, kUsualRadius, DirectionNoise::spatial);
   const auto add = [&](auto&& change) {
@@ -124,7 +124,7 @@ void add_gtao_variants(std::vector<ScreenSpaceMethod>& methods) {
 }
 
 /// Jimenez et al. 2016, section 4.3: one direction of twelve steps at half resolution, in 4 × 4 squares and
-/// six turns; and the usual preset likewise.
+/// six turns. Then the same without the six turns, and the usual preset at half resolution.
 void add_gtao_half_resolution(std::vector<ScreenSpaceMethod>& methods) {
   const auto add = [&](GtaoOptions options) {
     methods.push_back({.name = "gtao",
@@ -147,7 +147,8 @@ GtaoOptions without_noise(int slices, int steps) {
   return options;
 }
 
-/// How fast slices and steps converge, each with plenty of the other; and what thickness does in the limit.
+/// Tests how fast slices and steps converge, each with plenty of the other; and what thickness does in the
+/// limit.
 void add_gtao_sweeps(std::vector<ScreenSpaceMethod>& methods) {
   for (const int slices : {2, 4, 8, 16, 32}) methods.push_back(gtao_line(without_noise(slices, 128)));
   for (const int steps : {8, 16, 32, 64}) methods.push_back(gtao_line(without_noise(32, steps)));
@@ -203,7 +204,7 @@ void add_hbao(std::vector<ScreenSpaceMethod>& methods) {
   add(options, true);
 }
 
-/// A method of containment tests: it has relaxed points in its code, and finds totals.
+/// A method of containment tests. Its relaxed points are computed beforehand, and it finds totals.
 template <class Options>
 ScreenSpaceMethod point_line(const char* name, const std::string& words,
                              ScreenSpaceView (*run)(const DepthBuffer&, const Albedos&, const Options&),

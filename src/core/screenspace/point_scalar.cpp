@@ -40,7 +40,8 @@ Vec offset_of(const Receiver& at, const TangentPoint& point) {
   return point.x * at.tangent + point.y * at.bitangent + point.z * at.normal;
 }
 
-/// A place in texels from the depth buffer's corner; beyond an open map's edge it does not matter how far.
+/// A place in texels from the depth buffer's corner. Beyond an open map's edge it is clamped, as the distance
+/// from the edge does not matter there.
 struct Place {
   float u = 0, v = 0;
 };
@@ -85,8 +86,8 @@ std::pair<int, int> texel_at(const DepthBuffer& depth, const Place& place) {
   return {std::min(row, depth.height - 1), std::min(column, depth.width - 1)};
 }
 
-/// The first of the places on the way to the point that lies below the surface: how far it is on that way, 0
-/// where none does.
+/// Distance of the first tested place below the surface, as a share of the distance to the point, in (0, 1];
+/// 0 where no place is below.
 float hidden_share(const PointPass& pass, const Receiver& at, const Vec& offset) {
   for (int test = 1; test <= pass.tests; ++test) {
     const float share = static_cast<float>(test) / static_cast<float>(pass.tests);
@@ -97,7 +98,7 @@ float hidden_share(const PointPass& pass, const Receiver& at, const Vec& offset)
   return 0;
 }
 
-/// Of the sky, in that direction.
+/// Index of the sky's cell in that direction.
 std::size_t cell_of(const SkyGrid& sky, const Vec& way) {
   const float size = std::fabs(way.x()) + std::fabs(way.y()) + std::fabs(way.z());
   const float x = way.x() / std::max(size, 1e-30F);
@@ -174,7 +175,7 @@ void bounce_points_scalar(const BouncePass& pass, int row, std::vector<float>& r
       const float cosines =
           std::max(towards, 0.0F) * std::max(received_cosine, 0.0F) / std::max(squared, 1e-30F);
       const float all = radiance * pass.area * cosines / clamped;
-      // Not beside a hole, whose texel has no radiance.
+      // Beside a hole the nearest texel may have no radiance; it does not count.
       if (!std::isnan(all)) received[static_cast<std::size_t>(column)] += all;
     }
   }

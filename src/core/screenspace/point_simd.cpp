@@ -1,4 +1,5 @@
-// The arithmetic is point_scalar.cpp's. Places differ from lane to lane: heights are gathered.
+// The arithmetic is the same as in point_scalar.cpp. Places differ from lane to lane, so heights are
+// gathered.
 
 #include "screenspace/point_kernel.h"
 
@@ -116,7 +117,7 @@ class PointLanes {
     return hn::Add(hn::Mul(row, hn::Set(kI, depth_.width)), column);
   }
 
-  /// Of the sky, in that direction.
+  /// Index of the sky's cell in that direction.
   static VI cell_of(const SkyGrid& sky, const Vector& way) {
     const VF one = hn::Set(kF, 1.0F);
     const VF size = hn::Add(hn::Add(hn::Abs(way.x), hn::Abs(way.y)), hn::Abs(way.z));
@@ -130,11 +131,11 @@ class PointLanes {
     return hn::Add(hn::Mul(cell_along(sky, down), side), cell_along(sky, across));
   }
 
-  /// As the scalar hidden_share: 0 where no place is below the surface.
+  /// As hidden_share in point_scalar.cpp: 0 where no place is below the surface.
   VF hidden_share(const Framed& at, const Vector& offset) const {
     VF hidden = hn::Zero(kF);
     const VF bias = hn::Set(kF, pass_.bias);
-    for (int test = pass_.tests; test >= 1; --test) {  // the nearest place has the last word
+    for (int test = pass_.tests; test >= 1; --test) {  // the nearest place decides
       const VF share = hn::Set(kF, static_cast<float>(test) / static_cast<float>(pass_.tests));
       const Place place = place_of(at, hn::Mul(share, offset.x), hn::Mul(share, offset.y));
       const VF above = hn::Sub(hn::Sub(height_at(place), at.height), hn::Mul(share, offset.z));
@@ -240,7 +241,7 @@ void bounce_points_lanes(const BouncePass& pass, int row, std::vector<float>& re
                                    hn::Max(squared, hn::Set(kF, 1e-30F)));
         const VF all =
             hn::Div(hn::Mul(hn::Mul(radiance, hn::Set(kF, pass.area)), cosines), hn::Max(squared, least));
-        const auto counts = hn::Eq(all, all);  // not beside a hole
+        const auto counts = hn::Eq(all, all);  // a hole does not count
         sums[v] = hn::Add(sums[v], hn::IfThenZeroElse(is_open, hn::IfThenElseZero(counts, all)));
       }
     }

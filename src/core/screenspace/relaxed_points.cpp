@@ -10,8 +10,8 @@
 namespace heightlight {
 namespace {
 
-constexpr int kGrid = 24;        // places a side by which cells are measured
-constexpr int kIterations = 40;  // after which points move by less than the places are apart
+constexpr int kGrid = 24;        // places along each axis by which cells are measured
+constexpr int kIterations = 40;  // after these, points move by less than the spacing of the places
 
 using Points = std::vector<Eigen::Vector3d>;
 
@@ -24,14 +24,14 @@ Points random_points(int count) {
   return points;
 }
 
-/// From a point to a place, the short way around in x.
+/// Vector from a point to a place, around x in the shorter direction.
 Eigen::Vector3d way_to(const Eigen::Vector3d& place, const Eigen::Vector3d& point) {
   Eigen::Vector3d way = place - point;
   way.x() -= std::round(way.x());
   return way;
 }
 
-/// Each point moves to the middle of what is nearer to it than to any other.
+/// Moves each point to the mean of the places that are nearest to it.
 void relax(Points& points) {
   Points sums(points.size(), Eigen::Vector3d::Zero());
   std::vector<int> counts(points.size());

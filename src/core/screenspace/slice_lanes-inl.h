@@ -1,6 +1,6 @@
-// How vector kernels look along slices: included once per target, by the files that Highway compiles for
-// each. The lanes hold receivers of one row, four columns apart, which have their noise in common; what they
-// look at lies side by side in the depth buffer's phases.
+// How vector kernels look along slices. Included once per target, by the files that Highway compiles for
+// each. The lanes hold receivers of one row, four columns apart, which share their noise; the texels that
+// they read lie side by side in the depth buffer's phases.
 
 #if defined(HEIGHTLIGHT_SLICE_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef HEIGHTLIGHT_SLICE_LANES_INL_H
@@ -25,7 +25,7 @@ using F = hn::CappedTag<float, 8>;
 using VF = hn::Vec<F>;
 constexpr F kF;
 
-/// Vectors walked together, so that a sample's places are found once for all of them.
+/// Vectors walked together, so that the places of a sample are found once for all of them.
 constexpr std::size_t kBunch = 4;
 static_assert(kBunch * hn::MaxLanes(kF) <= kMostReceivers);
 
@@ -53,7 +53,7 @@ HWY_INLINE Receivers load_receivers(const DepthBuffer& depth, int row, int colum
   return at;
 }
 
-/// Index in a plane of the depth buffer's heights of what the first receiver finds at the tap.
+/// Index in the depth buffer's heights of the texel that the first receiver reads at the tap.
 HWY_INLINE std::size_t tap_index(const DepthBuffer& depth, const Receivers& at, const DepthTap& tap) {
   int row = at.row + tap.row;
   if (row >= depth.period_rows) row -= depth.period_rows;
@@ -82,17 +82,17 @@ HWY_INLINE Lanes sample_slopes(const DepthBuffer& depth, const Receivers& at, co
   return slopes;
 }
 
-/// Twice a side's share of irradiance above a horizon (gtao_kernel.h).
+/// Twice a side's irradiance above a horizon (gtao_kernel.h).
 HWY_INLINE VF slice_irradiance(VF c, VF n_z, const Elevation<VF>& horizon) {
   const VF q = hn::Mul(horizon.cosine, horizon.cosine);
   const VF zenith = hn::NegMulAdd(horizon.sine, horizon.cosine, horizon.from_zenith);
   return hn::MulAdd(c, zenith, hn::Mul(n_z, q));
 }
 
-/// Likewise above the slope m.
+/// As above, for the slope m of the horizon.
 HWY_INLINE VF slice_irradiance(VF c, VF n_z, VF m) { return slice_irradiance(c, n_z, elevation(kF, m)); }
 
-/// Adds lanes to what stands four columns apart in a row of the map, as far as the row goes.
+/// Adds the lanes to values that are four columns apart in a row of the map, up to the end of the row.
 HWY_INLINE void add_to_row(const Lanes& lanes, int column, std::vector<float>& row) {
   alignas(64) std::array<float, kBunch * hn::MaxLanes(kF)> values;
   for (std::size_t v = 0; v < kBunch; ++v) hn::Store(lanes[v], kF, values.data() + v * hn::Lanes(kF));
@@ -102,7 +102,7 @@ HWY_INLINE void add_to_row(const Lanes& lanes, int column, std::vector<float>& r
   }
 }
 
-/// Calls body(receivers) for bunches that cover the row.
+/// Calls body(receivers) for bunches that together cover the row.
 template <class Body>
 HWY_INLINE void for_receivers(const DepthBuffer& depth, int row, const Body& body) {
   const int step = DepthBuffer::kPhases * static_cast<int>(kBunch * hn::Lanes(kF));
@@ -111,7 +111,7 @@ HWY_INLINE void for_receivers(const DepthBuffer& depth, int row, const Body& bod
   }
 }
 
-/// Calls look(n) with the number of depths that a sample reads as a constant: one, or the three of a
+/// Calls look(n) with the number of texels that a sample reads as a compile-time constant: 1, or the 3 of a
 /// triangle.
 template <class Look>
 HWY_INLINE void with_taps(int taps, Look&& look) {

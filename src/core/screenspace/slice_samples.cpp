@@ -11,7 +11,7 @@
 namespace heightlight {
 namespace {
 
-/// How the texel of a rank turns its slices and shifts its steps in a frame.
+/// How a texel of a given rank turns its slices and shifts its steps in a frame.
 struct Turn {
   double slice = 0.25;  ///< f
   double step = 0.5;    ///< u
@@ -20,7 +20,7 @@ struct Turn {
 Turn turn_of(DirectionNoise noise, int rank, int frame) {
   if (noise == DirectionNoise::none) return {};
   const double within = noise == DirectionNoise::temporal ? (frame + 0.25) / kFrames : 0.25;
-  // rank = (row + column) mod 4 × 4 + column mod 4; the steps' shift goes with row − column.
+  // rank = 4 ((row + column) mod 4) + column mod 4; the shift of the steps depends on row − column.
   const int column = rank % kNoiseSide;
   const int row = (rank / kNoiseSide - column + kNoiseSide) % kNoiseSide;
   const int shift = (row - column + kNoiseSide) % kNoiseSide;
@@ -36,8 +36,8 @@ double step_share(StepDistribution distribution, int k, int steps, double shift)
 
 int around(int offset, int period) { return (offset % period + period) % period; }
 
-/// The texel nearest to (u, v), in texels from the receiver, never the receiver itself. Nothing where no
-/// receiver of an open map has such a texel.
+/// The texel nearest to (u, v), in texels from the receiver, but never the receiver itself. Nothing if on an
+/// open map no receiver has such a texel.
 std::optional<SliceSample> nearest_sample(const DepthBuffer& depth, double u, double v) {
   const double least = std::max(std::fabs(u), std::fabs(v));
   const double scale = least < 1 ? 1 / least : 1;
@@ -53,8 +53,8 @@ std::optional<SliceSample> nearest_sample(const DepthBuffer& depth, double u, do
   return sample;
 }
 
-/// The surface at (u, v): barycentric on the triangle there. Cells are cut from their upper left vertex to
-/// their lower right one.
+/// The surface at (u, v), barycentric on its triangle. Cells are cut from their upper left vertex to their
+/// lower right one.
 std::optional<SliceSample> mesh_sample(const DepthBuffer& depth, double u, double v, double distance) {
   const double left = std::floor(u);
   const double top = std::floor(v);

@@ -5,32 +5,32 @@
 
 #include "heightlight/screenspace.h"
 
-// Where the receivers of a slice-based method look. Seen from any texel the places are the same, but for the
-// noise, which repeats every four texels: sixteen tables at most serve a whole map.
+// Where the receivers of a slice-based method look. The places relative to the texel are the same for every
+// texel, except for the noise, which repeats every four texels: at most sixteen tables serve a whole map.
 //
-// Slice s of S stands at the azimuth φ = π (s + f)/S, counterclockwise from x. Without noise f = ¼: a feature
-// that an axis mirrors is then not seen twice at the same angle. The spatial noise turns the texel of rank r
-// in its 4 × 4 square by f = (r + ¼)/16: the square has 16 S equidistant slices. Frame m of six turns it by f
-// = (r + (m + ¼)/6)/16: 96 S equidistant slices in all. (Six turns by multiples of 60° would not do: modulo
+// Slice s of S has the azimuth φ = π (s + f)/S, counterclockwise from x. Without noise f = ¼, so that a
+// feature mirrored by an axis is not seen twice at the same angle. The spatial noise turns the texel of rank
+// r in its 4 × 4 square by f = (r + ¼)/16: the square has 16 S equidistant slices. Frame m of six turns it by
+// f = (r + (m + ¼)/6)/16: 96 S equidistant slices in all. (Six turns by multiples of 60° would not do: modulo
 // the 1/16 of the spatial noise they are only three.)
 
 namespace heightlight {
 
-/// Receivers that a kernel may walk at once: buffers are padded for as many.
+/// Receivers that a kernel may walk at once, at most: buffers are padded for this number.
 constexpr int kMostReceivers = 32;
 
 constexpr int kNoiseSide = 4;
 constexpr int kNoiseRanks = kNoiseSide * kNoiseSide;
 constexpr int kFrames = 6;
 
-/// Rank of a texel's direction in its 4 × 4 square; every square of 4 × 4 texels, wherever it lies, holds
-/// all.
+/// Rank of a texel's direction in its 4 × 4 square. Every square of 4 × 4 texels, wherever it lies, contains
+/// all ranks.
 constexpr int noise_rank(int row, int column) {
   return (row + column) % kNoiseSide * kNoiseSide + column % kNoiseSide;
 }
 
-/// A texel to look at: rows and columns from the receiver's, around the torus, so that none is negative; and
-/// its weight in the height of the sample, over the sample's distance.
+/// A texel to read: row and column relative to the receiver's, wrapped around the torus so that neither is
+/// negative; and its weight in the sample's height, divided by the sample's distance.
 struct DepthTap {
   int row = 0;
   int column = 0;
@@ -39,13 +39,13 @@ struct DepthTap {
 
 struct SliceSample {
   std::array<DepthTap, 3> taps;  ///< the first SliceTables::taps of them
-  float distance = 0;            ///< from the receiver, horizontally
+  float distance = 0;            ///< horizontal distance from the receiver, world units
 };
 
 struct Slice {
-  float x = 1;  ///< world direction of side 1; side 0 looks the other way
+  float x = 1;  ///< world direction of side 1; side 0 looks in the opposite direction
   float y = 0;
-  std::array<std::vector<SliceSample>, 2> sides;  ///< by rising distance
+  std::array<std::vector<SliceSample>, 2> sides;  ///< samples by rising distance
 };
 
 struct SliceTables {
@@ -57,7 +57,7 @@ struct SliceTables {
   }
 };
 
-/// What slice-based methods have in common.
+/// Options that slice-based methods have in common.
 struct SliceOptions {
   int slices = 1;
   int steps = 1;
@@ -67,7 +67,7 @@ struct SliceOptions {
   double radius = 0;
 };
 
-/// Throws UsageError naming `method` and what is out of its range.
+/// Throws UsageError if an option is out of its range; the message names `method` and the option.
 void check_slice_options(const char* method, const SliceOptions& options);
 
 int frame_count(DirectionNoise noise);

@@ -9,16 +9,16 @@
 #include "screenspace/point_kernel.h"
 #include "screenspace/relaxed_points.h"
 
-// Ritschel et al. 2009, section 3, with all radiances over that of the sky. Direction i of N stands for Δω =
+// Ritschel et al. 2009, section 3, with all radiances relative to the sky's. Direction i of N stands for Δω =
 // 2π/N, so that
-//     E/π = Σ L_in(ω_i) V(ω_i) cosθ_i · 2/N,
-// where cosθ_i takes each of the values (k + ½)/N once, which makes an open receiver's sum exactly 1. A
-// sender whose radiance is L = ρ E₀/π adds L A_s cosθ_s cosθ_r/(π d²).
+//     E/π = Σ L_in(ω_i) V(ω_i) cosθ_i · 2/N.
+// cosθ_i takes each of the values (k + ½)/N once, which makes an open receiver's sum exactly 1. A sender of
+// radiance L = ρ E₀/π adds L A_s cosθ_s cosθ_r/(π d²).
 
 namespace heightlight {
 namespace {
 
-/// How far a blocker at that distance has faded, in [0, 1].
+/// How much a blocker at that distance has faded, in [0, 1].
 double faded_share(const SsdoOptions& options, double distance) {
   constexpr double kBegin = 0.5;
   if (!options.smooth_end) return 0;
@@ -26,7 +26,7 @@ double faded_share(const SsdoOptions& options, double distance) {
   return t * t * (3 - 2 * t);
 }
 
-/// What points send although they are hidden is taken from their weights.
+/// Moves the faded part of each point's weight to `kept`, which counts even if the point is hidden.
 void fade(const SsdoOptions& options, std::vector<TangentPoint>& points) {
   for (TangentPoint& point : points) {
     const double faded = faded_share(options, std::hypot(point.x, point.y, point.z));
@@ -132,7 +132,7 @@ ScreenSpaceView ssdo(const DepthBuffer& depth, const std::vector<SurfaceAlbedo>&
   ScreenSpaceView view;
   view.samples_per_texel = static_cast<double>(options.samples) * frame_count(options.noise);
   view.sky_view_factor = trace_direct(depth, points, options);
-  Map white;  // the bounce of a white surface, of which those of constant albedos are shares
+  Map white;  // the bounce of a white surface; constant albedos scale it
   for (const SurfaceAlbedo& albedo : albedos) {
     Map total = view.sky_view_factor;
     if (albedo.map) {

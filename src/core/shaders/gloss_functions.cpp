@@ -46,7 +46,7 @@ ShaderInput apart_input() {
           .is_clamped = false};
 }
 
-/// A narrower lobe is lost among the digits of single precision.
+/// Narrower lobes are lost in the rounding of single precision.
 constexpr float kNarrowestLobe = 0.005F;
 constexpr float kNarrowestCone = 0.01F;
 
@@ -77,7 +77,7 @@ void put(const Direction<float>& direction, float* out) {
   out[2] = direction.z;
 }
 
-// Diffuse light of an uneven sky
+// Diffuse irradiance under an uneven sky
 // -----------------------------------------------------------------------------------
 
 ShaderFunction cone_bands_function() {
@@ -103,7 +103,7 @@ ShaderFunction cone_bands_function() {
       .ulps = 2};
 }
 
-/// Coefficients `first` and so many after it.
+/// Makes the function for the coefficients from `first` on, `count` of them.
 ShaderFunction cone_harmonics_function(const std::string& name, int first, int count, const char* text) {
   return {.name = name,
           .formula =
@@ -179,7 +179,7 @@ ShaderFunction shared_solid_angle_function() {
                 *out = static_cast<float>(shared_solid_angle<double>(in[0], in[1], in[2]));
               },
           .ulps = 256,
-          .jumps = 1e-3};  // where hemispheres hardly meet, a hair is left of two angles of pi
+          .jumps = 1e-3};  // where hemispheres hardly meet, two angles near pi almost cancel
 }
 
 ShaderFunction cone_cone_function() {
@@ -234,12 +234,12 @@ ShaderFunction falloff_function() {
           .ulps = 4};
 }
 
-/// View's angle in steps of the table.
+/// Angle of the view, in steps of the table.
 double view_step(double view_cosine, double side) {
   return std::acos(clamp_share(view_cosine)) / (kPiOfForms / 2) * (side - 1);
 }
 
-/// That of the two between which the view lies that is below.
+/// The lower of the two steps between which the view lies.
 double view_below(double view_cosine, double side) {
   return std::min(std::floor(view_step(view_cosine, side)), side - 2);
 }
@@ -256,7 +256,8 @@ void place_in_table(const float* in, float* out) {
   out[3] = static_cast<float>((layer + side) / (side * side));
 }
 
-/// Inputs where the view's angle is a step of the table, and rounding may put it on either side.
+/// Share of inputs for which the angle of the view is a step of the table, and rounding may put it on either
+/// side.
 constexpr double kSharesOfSteps = 5e-3;
 
 std::vector<ShaderFunction> table_functions() {
@@ -338,7 +339,7 @@ ShaderFunction lobe_direction_function() {
                 out[3] = light.facet_cosine;
               },
           .ulps = 64,
-          .jumps = 1e-3};  // at the disc's rim, where rounding alone is below a root
+          .jumps = 1e-3};  // at the disc's rim, where only rounding is left under a root
 }
 
 ShaderFunction frame_function(const std::string& name, const char* text,
@@ -360,7 +361,7 @@ constexpr int kPerVector = 4;
 
 std::string slopes_name(int vector) { return "slopes" + std::to_string(vector); }
 
-/// Horizons, four to a vector.
+/// Inputs for stored horizons, four to a vector.
 std::vector<ShaderInput> slope_inputs(int horizons) {
   std::vector<ShaderInput> inputs;
   for (int first = 0; first < horizons; first += kPerVector) {
@@ -378,7 +379,7 @@ std::vector<ShaderInput> slope_inputs(int horizons) {
   return inputs;
 }
 
-/// "vec4 slopes0, vec4 slopes1", or the names alone.
+/// "vec4 slopes0, vec4 slopes1" with `before` as "vec4 ", or the names alone with it empty.
 std::string list_slopes(int horizons, const std::string& before) {
   std::string list;
   for (int first = 0; first < horizons; first += kPerVector)
@@ -386,7 +387,7 @@ std::string list_slopes(int horizons, const std::string& before) {
   return list;
 }
 
-/// Cosines, or sines, of four azimuths; 0 where there is no such horizon.
+/// Cosines or sines of four azimuths; 0 where there is no such horizon.
 std::string azimuth_vector(int horizons, int first, double (*function)(double)) {
   std::string text = "vec4(";
   for (int k = first; k < first + kPerVector; ++k) {
@@ -398,8 +399,8 @@ std::string azimuth_vector(int horizons, int first, double (*function)(double)) 
 
 std::vector<float> slopes_of(const float* in, int horizons) { return {in, in + horizons}; }
 
-/// A horizon's share in the one between two of them, m sin(sector) = a sin(sector − φ) + b sin φ, is the
-/// greater of 0 and sin(sector − |angle to it|): no azimuth need be found.
+/// Between two stored horizons a and b, m sin(sector) = a sin(sector − φ) + b sin φ. Each horizon's weight in
+/// this is the greater of 0 and sin(sector − |angle to it|), so that no azimuth need be found.
 std::string horizon_above_text(int horizons) {
   const double sector = 2 * kPiOfForms / horizons;
   const std::string sine = shader_literal(std::sin(sector));

@@ -11,7 +11,7 @@ namespace {
 using Sky = SkyViewFactor<float>;
 using Seen = SeenSkyViewFactor<float>;
 
-// What forms are told
+// What forms take as inputs
 // -----------------------------------------------------------------------------------------------
 
 ShaderInput sky_input() {
@@ -117,7 +117,7 @@ ShaderFunction notes_function(const NotesConstants& constants, const std::string
           .ulps = 4};
 }
 
-// This project's
+// This project's forms
 // ----------------------------------------------------------------------------------------------------
 
 ShaderFunction bounced_function() {
@@ -157,7 +157,7 @@ ShaderFunction stored_pair_function() {
       }};
 }
 
-/// The guesses of n that this project has.
+/// This project's guesses of n.
 std::vector<ShaderFunction> seen_functions(const SeenConstants& constants) {
   const Replacements replacements = list_constants(kSeenConstants, constants);
   const auto text = [&](const FormText& form) { return fill_in(form.shader, replacements); };
@@ -235,7 +235,7 @@ const std::vector<ShaderFunction>& shader_functions() {
 
 std::vector<ShaderFunction> fitted_shader_functions(const ShaderConstants& constants) {
   ShaderFunction cubic = cubic_function(constants.cubic, "_fitted");
-  // Of the reports' fits of F0, the shader's is the one that stays below 1.
+  // The reports fit F0 in two ways; the shader's is the one that stays at or below 1.
   ShaderFunction notes = notes_function(constants.notes, "_fitted");
   notes.formula +=
       ", fitted: F0 with power 1, so that it is at most 1 (notes_direct_bounded in the report of a fit; its "
@@ -243,7 +243,7 @@ std::vector<ShaderFunction> fitted_shader_functions(const ShaderConstants& const
   cubic.formula += ", fitted";
   std::vector<ShaderFunction> seen = seen_functions(constants.seen);
   for (ShaderFunction* function : {&cubic, &notes})
-    function->error.clear();  // which were measured as published
+    function->error.clear();  // errors were measured with the constants as published
   for (ShaderFunction& function : seen) function.error.clear();
   std::vector<ShaderFunction> functions{
       share_function(),      uniform_neighbourhood_function(), cubic_function({}, ""), std::move(cubic),

@@ -6,7 +6,7 @@
 
 namespace heightlight {
 
-/// A number as shading languages write floats. Nine digits tell all of them apart; a point makes an integer a
+/// A number as shading languages write floats. Nine digits distinguish all floats; a point makes an integer a
 /// float.
 inline std::string shader_literal(double value) {
   constexpr int kDigits = 9;

@@ -9,9 +9,9 @@
 namespace heightlight {
 namespace {
 
-/// What languages call by several names; Godot's has GLSL's.
+/// A word that the languages spell differently; Godot's language spells it as GLSL does.
 struct ShaderWord {
-  const char* here;  ///< in the texts
+  const char* here;  ///< in the texts of the forms
   const char* glsl;
   const char* hlsl;
   const char* wgsl;
@@ -27,7 +27,7 @@ constexpr std::array kShaderWords{
     ShaderWord{"inversesqrt", "inversesqrt", "rsqrt", "inverseSqrt"},
     ShaderWord{"atan2", "atan", "atan2", "atan2"},
 };
-constexpr std::size_t kTypeCount = 5;  ///< of the words above, the first
+constexpr std::size_t kTypeCount = 5;  ///< the first of the words above are types
 
 constexpr const char* kWordCharacters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789";
 
@@ -58,7 +58,7 @@ bool is_type(const std::string& word) {
                      [&](const ShaderWord& type) { return word == type.here; });
 }
 
-/// "TYPE NAME", or "TYPE NAME[COUNT]", as WGSL has it.
+/// "TYPE NAME" or "TYPE NAME[COUNT]", as WGSL writes it.
 std::string declare_in_wgsl(const std::string& declaration) {
   const std::size_t space = declaration.find(' ');
   assert(space != std::string::npos);
@@ -69,7 +69,7 @@ std::string declare_in_wgsl(const std::string& declaration) {
   return declaration.substr(space + 1, bracket - space - 1) + ": array<" + type + ", " + count + '>';
 }
 
-/// "TYPE NAME(TYPE NAME, …) {" as WGSL has it.
+/// "TYPE NAME(TYPE NAME, …) {", as WGSL writes it.
 std::string print_wgsl_head(const std::string& line) {
   const std::size_t space = line.find(' ');
   const std::size_t open = line.find('(');
@@ -85,7 +85,7 @@ std::string print_wgsl_head(const std::string& line) {
          print_word(line.substr(0, space), ShaderLanguage::wgsl) + " {";
 }
 
-/// Whether a statement of the text, other than its declaration, gives a variable a value.
+/// Whether a statement of the text assigns to a variable, apart from its declaration.
 bool is_assigned(const std::string& text, const std::string& name) {
   for (const char* operation : {" = ", " += ", " -= ", " *= "}) {
     const std::string assignment = ' ' + name + operation;
@@ -98,8 +98,8 @@ bool is_assigned(const std::string& text, const std::string& name) {
   return false;
 }
 
-/// A line of a text. Where something is declared, that is the head of a function; a variable, which begins
-/// with `let` where it keeps its value; or that of a loop.
+/// Prints a line of a text. A declaration is the head of a function; a variable, which WGSL declares with
+/// `let` if it keeps its value; or the variable of a loop.
 std::string print_wgsl_line(const std::string& line, const std::string& text) {
   constexpr std::string_view kLoop = "for (";
   std::size_t begin = std::min(line.find_first_not_of(' '), line.size());

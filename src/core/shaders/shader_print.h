@@ -6,10 +6,11 @@
 
 namespace heightlight {
 
-/// Text as the head of shaders.h says, in a language. Lines that begin with // stay as they are.
+/// Translates text in the dialect that the head of shaders.h describes into a language. Lines that begin with
+/// // stay as they are.
 std::string print_source(const std::string& text, ShaderLanguage language);
 
-/// The function for albedos of three channels, made of the one for one.
+/// Makes the function for albedos of three channels from the function for one.
 ShaderFunction for_three_albedos(const ShaderFunction& function, ShaderLanguage language);
 
 }  // namespace heightlight

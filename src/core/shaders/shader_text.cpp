@@ -48,7 +48,7 @@ constexpr const char* kLibraryHead =
 // plots/data/directional_*.csv. docs/shaders.md tells which function is for what. May be used without attribution.
 )";
 
-/// What a file says of its language.
+/// What the head of a file says of its language.
 const char* describe_language(ShaderLanguage language) {
   switch (language) {
     case ShaderLanguage::glsl:
@@ -72,7 +72,7 @@ const char* describe_language(ShaderLanguage language) {
   return "";
 }
 
-/// A comment of lines that end before column 119, those behind the first indented.
+/// Wraps text into comment lines that end before column 119, with all lines but the first indented.
 std::string print_comment(const std::string& text, const std::string& indent = "") {
   constexpr std::size_t kColumns = 118;
   std::string printed;
@@ -105,8 +105,8 @@ std::string print_function(const ShaderFunction& function, ShaderLanguage langua
   return text + print_source(function.text, language);
 }
 
-/// What of the list is called in `text`, and what that calls, in the order of the list, but for what is there
-/// already.
+/// The shader functions that `text` calls, and those that these call, in the order of the list, without those
+/// in `there`.
 std::vector<ShaderFunction> called_in(std::string text, const std::vector<ShaderFunction>& there = {}) {
   const std::vector<ShaderFunction>& all = shader_functions();
   std::vector<ShaderFunction> called;
@@ -121,7 +121,7 @@ std::vector<ShaderFunction> called_in(std::string text, const std::vector<Shader
   return called;
 }
 
-/// A form of the list of closed forms, and the calls that it is.
+/// A form of the list of closed forms, and the shader calls that compute it.
 struct ShadedForm {
   std::string form;
   std::string calls;
@@ -201,7 +201,7 @@ std::string form_shader(const std::string& name, ShaderLanguage language) {
 
 std::string stored_pair_shader(ShaderLanguage language) {
   std::vector<ShaderFunction> functions = called_in("multi_bounce()");
-  for (ShaderFunction& function : functions) function.is_per_channel = false;  // which it is itself
+  for (ShaderFunction& function : functions) function.is_per_channel = false;  // the pair's is
   return std::string(kStoredPairHead) + "//\n" + kCountOnce + '\n' + print_shader(functions, language);
 }
 

@@ -6,10 +6,10 @@
 
 namespace heightlight {
 
-/// What stands for each $name.
+/// Pairs of a name and the text that replaces $name.
 using Replacements = std::vector<std::pair<std::string, std::string>>;
 
-/// The text with each $name in it replaced. Where no replacement has a name, nothing takes its place.
+/// Returns the text with each $name in it replaced. A $name without a replacement is removed.
 std::string fill_in(const std::string& text, const Replacements& replacements);
 
 }  // namespace heightlight

@@ -12,9 +12,9 @@ namespace heightlight {
 namespace {
 
 constexpr int kSide = 64;   // cells of some 3 × 10⁻³ sr
-constexpr int kRows = 128;  // of directions that cells are made from
+constexpr int kRows = 128;  // rows of the directions that cells are averaged from
 
-/// Of the middle of a cell.
+/// Unit direction of the middle of a cell.
 Eigen::Vector3f cell_direction(int row, int column) {
   const auto middle = [](int i) { return (2 * static_cast<float>(i) + 1) / kSide - 1; };
   Eigen::Vector3f way(middle(column), middle(row), 0);

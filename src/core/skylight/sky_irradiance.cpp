@@ -33,7 +33,7 @@ bool is_grey(const SkyLight& sky) {
                      [](const Vector3& value) { return value.x == value.y && value.y == value.z; });
 }
 
-/// Walks one azimuth from all receivers of the tile, and adds what its slice sends.
+/// Walks one azimuth from all receivers of the tile, and adds the irradiance from its slice.
 void add_azimuth(const RouteAzimuth& azimuth, const SkySlices& slices, std::size_t k, SkyWorkspace& work) {
   look_far(work.tile, azimuth.table, work.far);
   walk_sky(work.tile, azimuth.table, work.far, work.sums);
@@ -68,7 +68,7 @@ void walk_sky_light(const Surface& surface, const HeightPyramid& pyramid, const 
   });
 }
 
-/// A receiver, and what it gets by exact horizons.
+/// A receiver, and its E/π by exact horizons.
 struct SkyReference {
   std::size_t texel = 0;
   Eigen::Vector3d light;
@@ -103,7 +103,7 @@ std::vector<SkyReference> find_references(const Surface& surface, const SkyLight
   return references;
 }
 
-/// RMSE of the channel that errs most.
+/// RMSE of E/π in the channel with the largest error.
 double sky_light_rmse(const std::vector<SkyReference>& references, const std::vector<TexelVector>& channels) {
   if (references.empty()) return 0;
   double largest = 0;

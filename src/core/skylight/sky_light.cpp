@@ -30,8 +30,8 @@ Place place_of(const Image<Vector3>& image, const Vector3& direction) {
   return {turn * image.width, down * image.height};
 }
 
-/// Of a texel whose row may lie one beyond a pole, on whose other side it is found, and whose column may lie
-/// one beyond either side.
+/// A texel whose row may lie one beyond a pole, and is then found on the pole's other side, and whose column
+/// may lie one beyond either side.
 const Vector3& texel_around(const Image<Vector3>& image, int row, int column) {
   const int within = std::clamp(row, 0, image.height - 1);
   const int across = row == within ? 0 : image.width / 2;
@@ -99,7 +99,7 @@ Vector3 look_up(const SkyLight& sky, const Vector3& direction) {
 }
 
 SkyLight open_irradiance(const SkyLight& sky, int rows) {
-  constexpr int kFiner = 4;  // directions to a texel of the result, each way
+  constexpr int kFiner = 4;  // directions per texel of the result, along each axis
   const std::vector<SkySample> samples = sample_sky(sky, kFiner * rows);
   SkyLight open{Image<Vector3>(2 * rows, rows)};
   parallel_for(rows, [&](std::int64_t i) {

@@ -10,13 +10,13 @@ namespace {
 
 using std::numbers::pi;
 
-/// Of one texel in a row of an image of directions.
+/// Solid angle of a texel in a row of an image of directions, sr.
 double solid_angle(const Image<Vector3>& image, int row) {
   return (std::cos(pi * row / image.height) - std::cos(pi * (row + 1) / image.height)) * 2 * pi / image.width;
 }
 
-/// Means over blocks, by solid angle, so that the smaller sky sends the same. `rows` has at most as many as
-/// the sky.
+/// Means over blocks, weighted by solid angle, so that the smaller sky sends the same flux. `rows` is at most
+/// the height of the sky.
 SkyLight shrink(const SkyLight& sky, int rows) {
   const Image<Vector3>& from = sky.radiance;
   Image<Eigen::Vector3d> sums(2 * rows, rows, Eigen::Vector3d::Zero());

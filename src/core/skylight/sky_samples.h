@@ -6,15 +6,15 @@
 
 namespace heightlight {
 
-/// A direction that stands for a part of the sky.
+/// A direction that represents a part of the sky.
 struct SkySample {
   Vector3 direction;      ///< unit
   float solid_angle = 0;  ///< sr
   Vector3 radiance;
 };
 
-/// Directions in `rows` rows of latitude or more, a whole number to each texel of the sky; a finer sky is
-/// averaged to that many first, by solid angle, so that none of its light is lost.
+/// Divides a sky into directions in at least `rows` rows of latitude, a whole number to each texel. A finer
+/// sky is first averaged to `rows` rows, by solid angle, so that its irradiance is preserved.
 std::vector<SkySample> sample_sky(const SkyLight& sky, int rows);
 
 /// Unit vector through the middle of a texel.

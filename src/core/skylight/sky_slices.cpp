@@ -11,7 +11,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// Sums over the columns of a row up to a place between them, in columns; the row goes on around.
+/// Sums over the columns of a row up to a place, in columns, which may be fractional; the row repeats.
 class RowSums {
  public:
   RowSums(const Image<Vector3>& image, int row) : sums_(static_cast<std::size_t>(image.width) + 1) {
@@ -38,7 +38,7 @@ class RowSums {
   std::vector<Eigen::Vector3d> sums_;
 };
 
-/// ∫ cos²θ dθ and ∫ sinθ cosθ dθ, from 0.
+/// ∫ cos²θ dθ and ∫ sinθ cosθ dθ from 0 to `elevation_rad`.
 Eigen::Vector2d antiderivatives(double elevation_rad) {
   const double sine = std::sin(elevation_rad);
   return {(elevation_rad + sine * std::cos(elevation_rad)) / 2, sine * sine / 2};

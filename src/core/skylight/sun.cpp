@@ -13,42 +13,42 @@
 #include "heightlight/error.h"
 #include "visibility/exact_walk.h"
 
-// The disc is small: with s toward its middle, a level and b upright across s, both unit vectors, its
-// directions are s + x a + y b with x² + y² ≤ r², and a receiver with normal n gets
+// The disc is small. Let s point to its middle, and let a be level and b upright, both unit vectors across s.
+// The disc's directions are s + x a + y b with x² + y² ≤ r², and a receiver with normal n has
 //     E/π = 1/(π r²) ∫∫ V n·(s + x a + y b) dy dx.
 // The integral over x is taken by the Gauss–Chebyshev rule of the second kind, ∫ g(ξ) √(1 − ξ²) dξ ≈ Σ w_j
-// g(ξ_j) with ξ_j = cos(jπ/(M + 1)), whose weights are the lengths of chords: E/π is the mean over chords,
-// with weights 2/(M + 1) sin²(jπ/(M + 1)), which sum to 1. On a chord the integrand is linear in y between
-// the horizon or the tangent plane and the disc's border, so that ∫ dy is closed. An open plane gets n·s to
-// rounding.
+// g(ξ_j) with ξ_j = cos(jπ/(M + 1)), whose weights are the lengths of chords. E/π is thus the mean over
+// chords, with weights 2/(M + 1) sin²(jπ/(M + 1)), which sum to 1. On a chord the integrand is linear in y
+// between the horizon or the tangent plane and the disc's border, so that ∫ dy has a closed form. An open
+// plane has n·s to rounding.
 //
-// A level edge costs little: against the segment that it cuts from the disc the rule errs by 0.0065 of the
-// sun at five chords, 0.0018 at 11, 0.00045 at 23. An upright edge hides whole chords: the error is up to
-// half the weight of the one in the middle, 1/(M + 1), and none in the mean. Rules of 5, 11 and 23 chords
-// share their nodes, and only a receiver whose five chords do not all agree needs more of them: few receivers
-// stand in a penumbra. What is narrower than the gaps between five chords, a quarter of the disc, can stand
-// before the sun unseen.
+// A level edge causes little error: for the segment that it cuts from the disc, the rule errs by 0.0065 of
+// the sun with five chords, 0.0018 with 11, 0.00045 with 23. An upright edge hides whole chords: the error is
+// up to half the weight of the middle chord, 1/(M + 1), and none in the mean. The rules of 5, 11 and 23
+// chords share their nodes, and only a receiver whose five chords do not all agree needs more of them: few
+// receivers stand in a penumbra. An object narrower than the gaps between five chords, a quarter of the disc,
+// can stand before the sun unseen.
 
 namespace heightlight {
 namespace {
 
 constexpr int kParts = 24;          // M + 1 of the finest rule
-constexpr int kCoarsestStride = 4;  // between the chords of the coarsest
+constexpr int kCoarsestStride = 4;  // step between the chords of the coarsest rule
 constexpr double kLargestDiameter = 0.1;
 
 /// An upright chord of the disc.
 struct Chord {
   double across = 0;  ///< x
-  double half = 0;    ///< of its length
+  double half = 0;    ///< half of its length
   double azimuth_rad = 0;
-  double elevation_rad = 0;  ///< of its middle
+  double elevation_rad = 0;  ///< elevation of its middle
 };
 
-/// How a receiver sees a chord.
+/// What a receiver sees of a chord.
 struct ChordView {
   double received = 0;     ///< mean of V n·ω over the chord
   bool is_whole = false;   ///< nothing hides any of it
-  bool is_hidden = false;  ///< all of what is above the tangent plane
+  bool is_hidden = false;  ///< everything above the tangent plane is hidden
 };
 
 class SunDisc {
@@ -70,11 +70,11 @@ class SunDisc {
     }
   }
 
-  /// E/π of the receiver there.
+  /// E/π of the receiver at a texel.
   double irradiance(const ExactWalker& walker, int row, int column) const {
     const Vector3& facing = walker.surface().normal(row, column);
     const Eigen::Vector3d normal = as_eigen(facing).cast<double>().normalized();
-    if (normal.dot(middle_) <= -radius_) return 0;  // all of it below the tangent plane
+    if (normal.dot(middle_) <= -radius_) return 0;  // the whole disc is below the tangent plane
     std::array<ChordView, kParts> views;
     const auto look = [&](int j) {
       const Chord& chord = chords_.at(static_cast<std::size_t>(j));
@@ -105,7 +105,7 @@ class SunDisc {
       const bool is_seen = bottom < 0 && at_middle > 0;
       return {.received = is_seen ? at_middle : 0, .is_whole = is_seen, .is_hidden = !is_seen};
     }
-    const double rise = normal.dot(upright_);  // of n·ω along y
+    const double rise = normal.dot(upright_);  // growth of n·ω along y
     double from = -chord.half;
     double to = chord.half;
     if (rise > 0) from = std::max(from, -at_middle / rise);

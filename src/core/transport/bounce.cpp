@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kRounding = 1e-12;
 
-/// ⟨a, b⟩ with every texel weighing its area: reciprocity, area_i F_ij = area_j F_ji, makes F symmetric under
-/// it.
+/// ⟨a, b⟩ with every texel weighted by its area. Reciprocity, area_i F_ij = area_j F_ji, makes F symmetric
+/// under this product.
 double area_product(const TexelVector& a, const TexelVector& b, const Surface& surface) {
   double sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -36,7 +36,7 @@ BounceSeries bounce(const Transport& transport, const Surface& surface, int boun
     progress.throw_if_stopped();
     last = sequence->next(last, series.sum);
     // No more than is left: walks that turn from bounce to bounce might find more, by their noise. (What is
-    // left is known to a few ε.)
+    // left is known to within a few ε.)
     const auto left = (1 - as_eigen(series.sum).array()).max(0.0) + kRounding;
     as_eigen(last) = as_eigen(last).array().min(left).matrix();
     as_eigen(series.sum) += as_eigen(last);

@@ -9,7 +9,7 @@ namespace heightlight {
 namespace {
 
 constexpr std::int64_t kBounceReceivers = 128;
-constexpr int kBounceCheckAzimuths = 64;  // leave .0006 of the first bounce on bricks
+constexpr int kBounceCheckAzimuths = 64;  // they leave an error of .0006 in the first bounce on bricks
 
 std::int64_t receiver_count(const Surface& surface) {
   return std::min(kBounceReceivers, static_cast<std::int64_t>(surface.map.height.size()));

@@ -8,17 +8,19 @@
 
 namespace heightlight {
 
-/// What single bounces err by, found while they are made, on some receivers by exact walks: of E_b one finds
-/// r = E_b − F E_{b−1}, and e_b = r + F e_{b−1} as error_propagation.h has it.
+/// Errors of single bounces, found while these are made, by exact walks of some receivers. The residual of
+/// E_b is r = E_b − F E_{b−1}, and its error is e_b = r + F e_{b−1}, with means of e over classes of
+/// receivers as in error_propagation.h.
 class BounceCheck {
  public:
-  /// `direct` is A per texel, as found; `seed` picks the receivers. The surface must outlive it.
+  /// `direct` is A per texel, as it was found; `seed` picks the receivers. The surface must outlive this
+  /// object.
   BounceCheck(const Surface& surface, const TexelVector& direct, std::uint64_t seed, const Watch& watch);
 
-  /// RMSE of E_b/π, for b = 0, 1, 2 …, one after the other. 0 where there is no receiver.
+  /// Returns the RMSE of E_b/π. To be called for b = 0, 1, 2 … in order. 0 where there is no receiver.
   double take(const TexelVector& bounce);
 
-  /// What it holds on a map of that size.
+  /// Bytes that a check of a map of that size holds.
   static std::uint64_t bytes(int width, int height);
 
  private:
@@ -31,7 +33,7 @@ class BounceCheck {
 
   const Surface& surface_;
   std::vector<Receiver> receivers_;
-  SkyClasses::PerClass<double> mean_{};  ///< of e_{b−1}
+  SkyClasses::PerClass<double> mean_{};  ///< mean of e_{b−1} per class
 };
 
 }  // namespace heightlight

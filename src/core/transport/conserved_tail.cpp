@@ -11,7 +11,7 @@ bool is_missing(const Transport& transport, std::size_t i) {
   return std::isnan(transport.sky_view_factor.values[i]);
 }
 
-/// ρ^{K+1} T (1 − q)/(1 − ρ q) of one receiver; `power` is ρ^{K+1}. Rounding may leave T a hair below 0.
+/// ρ^{K+1} T (1 − q)/(1 − ρ q) of one receiver; `power` is ρ^{K+1}. Rounding may leave T slightly below 0.
 double conserved(double sum, double last, double albedo, double power) {
   const double left = std::max(0.0, 1 - sum);
   const double ratio = left + last > 0 ? left / (left + last) : 0;

@@ -7,9 +7,9 @@
 #include "base/texel_algebra.h"
 #include "heightlight/transport.h"
 
-// x = source + F ρ x is solved as (I − F ρ) x = source. Plain iteration is the bounces themselves and takes
-// ln ε / ln λ of them, thousands in a deep well; BiCGSTAB takes a few dozen. Eigen runs it on anything that
-// it can multiply with a vector, given the traits below.
+// x = source + F ρ x is solved as (I − F ρ) x = source. Plain iteration would make the bounces themselves and
+// need ln ε / ln λ of them, thousands in a deep well; BiCGSTAB needs a few dozen products. Eigen runs it on
+// any type that can be multiplied with a vector, given the traits below.
 
 namespace heightlight {
 class LossOperator;
@@ -22,7 +22,7 @@ struct traits<heightlight::LossOperator> : traits<SparseMatrix<double>> {};
 
 namespace heightlight {
 
-/// I − F diag(ρ), known by its products only.
+/// The operator I − F diag(ρ), which is known only by its products with vectors.
 class LossOperator : public Eigen::EigenBase<LossOperator> {
  public:
   using Scalar = double;

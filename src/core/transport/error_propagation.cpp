@@ -14,7 +14,7 @@ double all_seen(const FoundError& error) {
   return std::accumulate(error.seen.begin(), error.seen.end(), 0.0);
 }
 
-/// What r is on average per unit of what is seen.
+/// Regression of r on Σ F ρ: the mean of r per unit of what is seen.
 double error_per_seen(const std::vector<FoundError>& found) {
   double products = 0;
   double squares = 0;
@@ -25,9 +25,9 @@ double error_per_seen(const std::vector<FoundError>& found) {
   return squares > 0 ? products / squares : 0;
 }
 
-/// Mean of r over the receivers of each class, with little of what chance makes of it, which would be passed
-/// on as if all the class had it. What goes with how much is seen is known from all receivers. Of the rest, a
-/// class's mean with a standard error s has s² of its square by chance.
+/// Mean of r over the receivers of each class, with little of its random error, which would be passed on as
+/// if the whole class had it. The part proportional to what is seen is known from all receivers. In the rest,
+/// a class mean with standard error s has s² of its square by chance.
 PerClass mean_residuals(const std::vector<FoundError>& found) {
   const double per_seen = error_per_seen(found);
   PerClass count{};
@@ -55,8 +55,9 @@ PerClass mean_residuals(const std::vector<FoundError>& found) {
   return means;
 }
 
-/// Means of e over the receivers of each class: those of r, and of what the classes' means bring by way of F
-/// ρ. A Jacobi iteration converges since F ρ takes less than it finds; slowly where nearly nothing is lost.
+/// Means of e over the receivers of each class: the mean of r, plus what F ρ gathers from the classes' means.
+/// The Jacobi iteration converges since F ρ loses part of what it gathers; slowly where it loses hardly
+/// anything.
 PerClass solve_classes(const std::vector<FoundError>& found, const PerClass& residual) {
   constexpr int kIterations = 200;
   PerClass count{};
@@ -78,7 +79,7 @@ PerClass solve_classes(const std::vector<FoundError>& found, const PerClass& res
   return mean;
 }
 
-/// The share of d that the places seen have on average: the regression of theirs on the receivers'.
+/// The share of d that the places seen have on average: the regression of the places' d on the receivers' d.
 double share_of_places(const std::vector<FoundError>& found, const PerClass& residual) {
   double products = 0;
   double squares = 0;

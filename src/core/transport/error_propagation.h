@@ -7,18 +7,19 @@
 #include "transport/exact_gather.h"
 #include "transport/sky_classes.h"
 
-// What is wrong with a total in all, e = r + F ρ e, from what some receivers find wrong at the last step, r.
-// They know by exact walks what they see, F. The means of e over receivers of like A are solved for. Of what
-// differs from these means, d, what is seen has a share, too: none where it is noise of each receiver by
-// itself, more where a place and what it sees err alike. Some receivers know r of one of the places that they
-// see, picked by its form factor: these pairs tell that share.
+// Finds the whole error of a total, e = r + F ρ e, from the residuals r that some receivers find at the last
+// step. These receivers know by exact walks what they see, F. The means of e over receivers of similar A are
+// solved for. The deviation d from these means is passed on in part, too: the places that a receiver sees
+// have a share of its d, which is 0 where d is noise of each receiver by itself, and larger where a place and
+// what it sees err alike. Some receivers also know r of one of the places that they see, picked by its form
+// factor: that share is estimated from these pairs.
 
 namespace heightlight {
 
 /// What one receiver finds.
 struct FoundError {
   double residual = 0;                  ///< r
-  std::size_t own_class = 0;            ///< by its A
+  std::size_t own_class = 0;            ///< class of the receiver by its A
   SkyClasses::PerClass<double> seen{};  ///< Σ F ρ over the places that it sees, by their class
 
   struct SeenPlace {
@@ -28,11 +29,11 @@ struct FoundError {
   std::optional<SeenPlace> place = {};  ///< one of the places seen
 };
 
-/// e of each receiver. ρ F must take something from what it gathers.
+/// Returns e of each receiver. F ρ must lose part of what it gathers.
 std::vector<double> propagate_errors(const std::vector<FoundError>& found);
 
-/// Σ F ρ over the places of an exact view, by their class; the place's texel stands for it. `albedo(i)` and
-/// `sky(i)` are ρ and A of texel i.
+/// Returns Σ F ρ over the places of an exact view, by class; the nearest texel stands for each place.
+/// `albedo(i)` and `sky(i)` are ρ and A of texel i.
 template <class Albedo, class Sky>
 SkyClasses::PerClass<double> seen_by_class(const SliceView& view, const Surface& surface,
                                            const SkyClasses& classes, Albedo&& albedo, Sky&& sky) {

@@ -31,7 +31,7 @@ double estimate_links(const Surface& surface, const ExactWalker& walker) {
   return sum / kSample;
 }
 
-/// May be stopped at any receiver: a row of exact walks takes long.
+/// Finds the links of one row. It can be stopped at any receiver, since a row of exact walks takes long.
 void fill_row(const ExactWalker& walker, int row, const Progress& progress, FormFactors& form_factors) {
   const Surface& surface = walker.surface();
   constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();

@@ -7,7 +7,7 @@
 
 namespace heightlight {
 
-/// The texel next to a place.
+/// Index of the texel nearest to a place.
 inline std::size_t nearest_texel(const SurfacePoint& place, const Surface& surface) {
   const auto width = static_cast<std::uint32_t>(surface.width());
   const int row = static_cast<int>(place.cell / width) + (place.down > 0.5F ? 1 : 0);
@@ -15,9 +15,8 @@ inline std::size_t nearest_texel(const SurfacePoint& place, const Surface& surfa
   return surface.map.height.index(row % surface.height(), column % surface.width());
 }
 
-/// x at the place that a link names, interpolated linearly on its facet. `value` gives x by the texel's
-/// index, finite everywhere; values at missing samples weigh in only where rounding puts a place beyond a
-/// hole's edge.
+/// x at the place of a link, interpolated linearly on its facet. `value(i)` is x of texel i, finite
+/// everywhere; values at missing samples have weight only where rounding puts a place beyond a hole's edge.
 template <class Value>
 double value_seen(const VisibleInterval& link, const Surface& surface, Value&& value) {
   const SurfacePoint& place = link.place;

@@ -22,7 +22,7 @@ TexelVector gather_field(const FieldGather& gather, const TexelVector& x, Gather
       [&](const ReceiverTile& tile, const GatherSums& sums) {
         for_present(tile, [&](std::size_t at, int row, int column) {
           const std::size_t i = field.index(row, column);
-          // Who sees nothing along these azimuths, but has A < 1, sees its like.
+          // A receiver that sees nothing along these azimuths, but has A < 1, is taken to see its own value.
           const double seen = sums.weight[at] > 0 ? double{sums.weighted[0][at]} / double{sums.weight[at]}
                                                   : double{field.values[i]};
           result[i] = unit * ((1 - gather.direct[i]) * seen);

@@ -6,18 +6,19 @@
 
 namespace heightlight {
 
-/// What gathers of single fields share, and who they are for.
+/// What all gathers of single fields over one map share.
 struct FieldGather {
   const MapGather& gather;
-  const Map& sky;             ///< A
-  const TexelVector& direct;  ///< A as F complements it to 1, 0 where missing
+  const Map& sky;             ///< A; NaN where missing
+  const TexelVector& direct;  ///< A, such that A + Σ F = 1; 0 where missing
   const Watch& watch;
 };
 
-/// F x, where x is finite everywhere. 0 where missing.
+/// Returns F x, where x is finite everywhere: (1 − A) times the mean of x that each receiver sees. 0 where
+/// missing. `turn.sky` is ignored.
 TexelVector gather_field(const FieldGather& gather, const TexelVector& x, GatherTurn turn);
 
-/// The share of what a receiver could see that is surface, as the walks add it up. 0 where missing.
+/// Returns Σ F of each receiver as the walks add it up, which need not be exactly 1 − A. 0 where missing.
 TexelVector find_surface_share(const FieldGather& gather, const GatherTurn& turn);
 
 }  // namespace heightlight

@@ -12,7 +12,8 @@ struct Entry {
   double value;
 };
 
-/// What a link gives the corners of its facet: those weigh as a linear function on it is interpolated.
+/// Distributes a link's weight to the corners of its facet, as a linear function on the facet is
+/// interpolated.
 void add_link(const FormFactors& form_factors, const Link& link, double weight, std::vector<Entry>& entries) {
   const auto width = static_cast<std::uint64_t>(form_factors.width);
   const auto height = static_cast<std::uint64_t>(form_factors.height);

@@ -8,8 +8,8 @@
 namespace heightlight {
 namespace {
 
-/// x with a column on the right and a row below that repeat the first ones, so that a link need not know
-/// whether its cell wraps. (Where the map is open, no link lies there.)
+/// Returns x with a column on the right and a row below that repeat the first ones, so that a link need not
+/// know whether its cell wraps. (On an open map no link lies there.)
 TexelVector pad(const FormFactors& form_factors, const TexelVector& x) {
   const auto width = static_cast<std::size_t>(form_factors.width);
   const auto height = static_cast<std::size_t>(form_factors.height);
@@ -23,7 +23,7 @@ TexelVector pad(const FormFactors& form_factors, const TexelVector& x) {
   return padded;
 }
 
-/// k/255, by k: a load costs less than a conversion and a product.
+/// k/255 for each k: a load costs less than a conversion and a multiplication.
 const std::array<double, 256> kUnit = [] {
   std::array<double, 256> unit{};
   for (std::size_t k = 0; k < unit.size(); ++k) unit[k] = static_cast<double>(k) / 255;
@@ -31,9 +31,9 @@ const std::array<double, 256> kUnit = [] {
 }();
 
 /// Linear interpolation of `padded` at the place that a link names. With m = min(across, down), the lower
-/// right corner weighs m and the corner off the diagonal |across − down|: across − m and down − m are that
-/// for the triangle of either side, and 0 for the other. There is no branch, and a constant is interpolated
-/// exactly.
+/// right corner has the weight m, and the corner off the diagonal |across − down|: of across − m and down −
+/// m, one is this and the other 0, depending on the triangle. There is no branch, and a constant is
+/// interpolated exactly.
 double value_at(const Link& link, const double* padded, std::uint32_t stride) {
   const double* corner = padded + link.cell;
   const double across = kUnit[link.across];
@@ -44,7 +44,7 @@ double value_at(const Link& link, const double* padded, std::uint32_t stride) {
          (down - both) * (corner[stride] - upper_left) + both * (corner[stride + 1] - upper_left);
 }
 
-/// Sum over a receiver's links: `weight_of(k)` is that of link k.
+/// Weighted sum over a receiver's links: `weight_of(k)` is the weight of link k.
 template <class WeightOf>
 double sum_links(const LinkRow& line, std::size_t column, const double* padded, std::uint32_t stride,
                  WeightOf&& weight_of) {

@@ -11,10 +11,10 @@ namespace heightlight {
 namespace {
 
 constexpr CalibrationShape kBlock{.rows = kGatherBlockRows, .columns = kGatherBlock};
-constexpr std::int64_t kBlocksPerStrip = 4;  // of those that the sky is tried on
+constexpr std::int64_t kBlocksPerStrip = 4;  // per strip of the sky's calibration
 constexpr std::size_t kExactPerBlock = 4;
 
-/// Azimuths of a trial: about as many as gathers have together.
+/// Azimuths of a trial of sampling: about as many as all gathers have together.
 constexpr int kTrialAzimuths = 16;
 constexpr std::size_t kTrialStep = GatherCalibration::kExactAzimuths / kTrialAzimuths;
 

@@ -11,50 +11,51 @@
 
 namespace heightlight {
 
-/// Bytes that a calibration of such a map holds, and what it sees of so many fields.
+/// Bytes that the calibration of a map of that size holds, together with what it sees of `fields` fields.
 std::uint64_t gather_calibration_bytes(int width, int height, std::uint64_t fields);
 
-/// Receivers on which gathers are tried before the whole map gathers: blocks, and in them some whose views
-/// are known exactly. What sampling costs has a long tail along walls: they lie in many places, of few
-/// receivers each.
+/// Receivers on which gathers are tried before the whole map gathers: blocks of receivers, in which the views
+/// of some are known exactly. The error of sampling has a long tail along walls, so the blocks lie in many
+/// places, with few receivers each.
 class GatherCalibration {
  public:
   static constexpr int kExactAzimuths = 48;
 
-  /// `surface` must outlive it. The watch hears of the exact walks.
+  /// `surface` must outlive this object. The watch is told of the exact walks.
   GatherCalibration(const Surface& surface, const CalibrationOptions& options);
 
   bool empty() const { return exact_.empty(); }
   const Surface& surface() const { return surface_; }
 
-  /// What the exact receivers see of the surface at an albedo, by its A: `sky` as it was found. Once known,
-  /// gathers can be tried.
+  /// Finds what the exact receivers see of the surface at an albedo, by class of A; `sky` is A as it was
+  /// found. Must be called before sampling_error.
   void see_classes(const Map& sky, double albedo);
 
-  /// Of an exact receiver: form factors along each azimuth, and Σ F x.
+  /// What one exact receiver sees of a field x: Σ F (`weight`) and Σ F x (`weighted`) along each azimuth.
   struct SeenField {
     std::array<double, kExactAzimuths> weight{};
     std::array<double, kExactAzimuths> weighted{};
-    double own = 0;  ///< x where it is
+    double own = 0;  ///< x at the receiver itself
 
-    /// Mean of x seen along every so many-th azimuth; its own where nothing is.
+    /// Mean of x seen along every `step`-th azimuth, from `first` on; `own` where nothing is seen.
     double mean(std::size_t first = 0, std::size_t step = 1) const;
   };
 
-  /// Of each exact receiver.
+  /// Returns what each exact receiver sees of x.
   std::vector<SeenField> see_field(const Map& x) const;
 
-  /// RMS of what a total changes by at the last step for a change of 1 of A: what its direct irradiance does,
-  /// less the mean of the radiosity seen.
+  /// RMS over the receivers of the change of a total at the last step per change of A: the change of its
+  /// direct irradiance, `direct_per_sky`, less the mean of the radiosity seen.
   double sky_effect(const std::vector<SeenField>& radiosity, double direct_per_sky) const;
 
-  /// RMSE that sampling brings into a total: one gather's, of (1 − A) × the mean of x seen against exact
-  /// walks along the same azimuths, and what later gathers make of that. `pyramid` holds x, as seen.
+  /// RMSE that sampling brings into a total. The error of one gather is (1 − A) times the difference between
+  /// the mean of x that it sees and that of exact walks along the same azimuths; later gathers pass it on.
+  /// `pyramid` holds x; `x` is what see_field returned for it.
   double sampling_error(const MapGather& gather, const FieldPyramid& pyramid,
                         const std::vector<SeenField>& x) const;
 
-  /// What 2, 4, 8 and 16 azimuths cost a gather of x: the same along so many of the exact azimuths, against
-  /// all of them, where they are halved as azimuth_halvings says.
+  /// RMSE of gathers of x along 2, 4, 8 and 16 azimuths, halved as azimuth_halvings says: the exact views
+  /// along so many of their azimuths, against the same views along all azimuths.
   static constexpr std::size_t kAzimuthTrials = 4;
   using AzimuthTrials = std::array<double, kAzimuthTrials>;
   AzimuthTrials azimuth_errors(const std::vector<SeenField>& x) const;
@@ -70,10 +71,10 @@ class GatherCalibration {
   double surface_share(std::size_t receiver) const { return 1 - exact_[receiver].view.sky_view_factor; }
 
   const Surface& surface_;
-  Watch watch_;  ///< is told nothing, and asked whether to go on
+  Watch watch_;  ///< reports nothing; asked whether to go on
   std::vector<TileFrame> blocks_;
   std::vector<ExactReceiver> exact_;
-  std::vector<FoundError> seen_;  ///< of the exact receivers: without what they find wrong
+  std::vector<FoundError> seen_;  ///< of the exact receivers, with residuals of 0
 };
 
 }  // namespace heightlight

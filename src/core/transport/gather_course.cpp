@@ -11,16 +11,16 @@ namespace {
 
 constexpr int kFewestGathers = 2;
 
-/// Share of the error wanted that ending the gathers may take: less where one more, of few azimuths, costs
-/// little beside the last ones.
+/// Share of the error wanted that ending the gathers may take. It is less where the last gathers walk many
+/// azimuths, since one more gather of few azimuths then costs little beside them.
 constexpr double ending_share(int last_azimuths) { return last_azimuths < 12 ? 0.6 : 0.4; }
 
-/// What is left after a gather, as a share of what the means over classes tell: on bricks, cobbles and
-/// fractal ground at reliefs from .1 to 1, at most.
+/// The error left after a gather is at most this many times what the class means show, on bricks, cobbles and
+/// fractal ground at reliefs from .1 to 1.
 constexpr double kBeyondClasses = 1.5;
 
-/// RMS of what is wrong but for noise: under the sky, of the means over the classes. Light of one's own may
-/// be anywhere.
+/// RMS of the error without its noise. Under the sky the class means show it. A user-given light may be
+/// anywhere, so there all changes count.
 double lasting_change(const ChangeSum& change, bool under_sky) {
   double squares = 0;
   double count = 0;
@@ -34,9 +34,10 @@ double lasting_change(const ChangeSum& change, bool under_sky) {
   return under_sky ? kBeyondClasses * std::sqrt(squares / count) : std::sqrt(change.squares.value() / count);
 }
 
-/// How many gathers in all leave no more than the error, when `change` is what the last of `done` would
-/// change by itself: no eigenvalue keeps more than κ, and each gather takes off what Chebyshev's weights do.
-/// Where the last one was meant to be the last, it may be.
+/// Number of gathers in all that leaves no more than the error, where `change` is what the last of `done`
+/// gathers would change with a step weight of 1. No eigenvalue exceeds κ, and each further gather shrinks the
+/// error at the rate that Chebyshev's weights give. The last gather may remain the last if it was meant to
+/// be.
 int plan_gathers(const GatherCourse& course, double change, double error, int done) {
   const double kappa = course.kappa;
   const double rate = kappa > 0 ? (1 - std::sqrt(1 - std::min(kappa * kappa, 0.9999))) / kappa : 0;

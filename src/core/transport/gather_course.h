@@ -7,21 +7,22 @@
 #include "heightlight/transport.h"
 #include "transport/sky_classes.h"
 
-// How the gathers of one system follow on each other (progressive_gather.h): numbers that are the same for
-// all receivers, wherever those are kept.
+// How the gathers of one system follow each other (progressive_gather.h): numbers that are the same for all
+// receivers, wherever the receivers are kept.
 
 namespace heightlight {
 
-/// λ of the azimuths walked before, by what they are together: what the steps between gathers bring is known
-/// from few azimuths. (On bricks 0.3 is as good, 1 half as good again.)
+/// At every gather the weight of the azimuths walked before fades by this factor, since the changes between
+/// gathers are known from few azimuths. (On bricks 0.3 is as good; 1 errs half as much again.)
 constexpr double kFading = 0.6;
 
 constexpr int kMostGathers = 64;
 
-/// The first gather tells of what is wrong with the start, the second of what lives longer.
+/// Gathers from which their number is planned: the first shows the error of the start, the second the part of
+/// it that persists longer.
 constexpr int kTellingGathers = 2;
 
-/// What a gather would change with a weight of 1, summed over some receivers.
+/// What a gather would change with a step weight of 1, summed over some receivers.
 struct Change {
   double squares = 0;
   SkyClasses::PerClass<double> sum{};
@@ -34,7 +35,7 @@ struct Change {
   }
 };
 
-/// The same over all receivers, tile by tile in any order.
+/// The same over all receivers; tiles may be added in any order.
 struct ChangeSum {
   FixedSum squares;
   SkyClasses::PerClass<FixedSum> sum{};
@@ -46,31 +47,31 @@ struct ChangeSum {
 
 struct GatherCourse {
   double kappa = 0;            ///< κ
-  int last_azimuths = 2;       ///< of each of the last two gathers
-  double weight = 1;           ///< w of the step to come
-  int gathers = kMostGathers;  ///< in all, as far as known
-  double azimuths = 0;         ///< in N and W, as they weigh there
-  double kept = 0;             ///< share of N and W that the gather to come keeps
+  int last_azimuths = 2;       ///< azimuths of each of the last two gathers
+  double weight = 1;           ///< w of the next step
+  int gathers = kMostGathers;  ///< number of gathers in all, as far as known
+  double azimuths = 0;         ///< azimuths in N and W, each with its weight there
+  double kept = 0;             ///< share of N and W that the next gather keeps
 };
 
-/// κ of a system that has no larger albedo. `deep_share` is 1 − A of the places that see most of the surface,
-/// as below.
+/// Starts the course of a system whose largest albedo is `highest_albedo`: κ is its product with
+/// `deep_share`, which is 1 − A of the places that see most of the surface (deep_surface_share).
 GatherCourse begin_course(double highest_albedo, double deep_share, int last_azimuths);
 
 /// Mean over receivers of 1 − A, weighted by its fourth power and area.
 double deep_surface_share(const Map& sky, const Surface& surface);
 
-/// Azimuths of a gather when so many are left, itself among them.
+/// Azimuths of a gather when `left` gathers are left, itself included.
 int gather_azimuths(int left, int last_azimuths);
 
 /// Azimuths of the k-th gather, k = 0, 1 …; 0 where the course has ended.
 int azimuths_of_gather(const GatherCourse& course, int k);
 
-/// Sets what the k-th gather steps and keeps.
+/// Sets the weight of the k-th gather's step, and the share of the sums that it keeps.
 void begin_gather(int k, GatherCourse& course);
 
-/// Plans how many gathers there are to be, from what the k-th, one of the first kTellingGathers, changed of
-/// the system, so that ending leaves its share of the error.
+/// Plans the number of gathers so that ending leaves no more than its share of the error. `change` is what
+/// the k-th gather, one of the first kTellingGathers, changed of the system.
 void end_gather(int k, const ChangeSum& change, bool under_sky, double error, GatherCourse& course);
 
 }  // namespace heightlight

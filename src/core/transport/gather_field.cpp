@@ -10,7 +10,7 @@
 namespace heightlight {
 namespace {
 
-/// Steps the receivers of a tile. `change` may be null.
+/// Takes one step of the receivers of a tile. `change` may be null.
 void update(const ReceiverTile& tile, const GatherSums& sums, std::size_t f, const StepGround& ground,
             GatherField& field, Change* change) {
   const GatherSums::Values& weight = sums.weight;
@@ -24,7 +24,8 @@ void update(const ReceiverTile& tile, const GatherSums& sums, std::size_t f, con
     all = (1 - kept) * weight[at] + kept * all;
     float& now = field.irradiance.values[i];
     float& before = field.before.values[i];
-    // Who sees nothing along all azimuths so far, but has A < 1, sees its like.
+    // A receiver that sees nothing along all azimuths so far, but has A < 1, is taken to see its own
+    // radiosity.
     const double seen = all > 0 ? double{sum} / double{all} : field.albedo(i) * double{now};
     const double share = double{ground.sky.values[i]};
     const double next = field.direct(i, share) + (1 - share) * seen;

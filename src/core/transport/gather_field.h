@@ -7,30 +7,30 @@
 
 namespace heightlight {
 
-/// One system on its way: all that its receivers know.
+/// One system while it is being solved: all that is known of its receivers.
 struct GatherField {
   const IrradianceSystem& system;
   GatherCourse course = {};
-  double unit = 1;      ///< of its direct irradiance
+  double unit = 1;      ///< E/π of one unit: unit_of the direct irradiance; 1 under the sky
   Map irradiance = {};  ///< E_k/π in units; NaN where the sample is missing
   Map before = {};      ///< E_{k−1}
-  Map weighted = {};    ///< N and W
+  Map weighted = {};    ///< N
   Map weights = {};
 
   double albedo(std::size_t i) const { return system.varying ? (*system.varying)[i] : system.albedo; }
-  /// E₀/π in units, of a receiver with the sky's share A.
+  /// E₀/π in units, of a receiver with the sky view factor `sky`.
   double direct(std::size_t i, double sky) const { return system.direct ? (*system.direct)[i] / unit : sky; }
 };
 
-/// At the start: a closed form under the sky, irradiance of one's own before it bounces.
+/// The start: a closed form under the sky; the direct irradiance, before it bounces, for a user-given light.
 GatherField start_field(const IrradianceSystem& system, const Map& sky);
 
-/// ρ (E_k − kept E_{k−1})/π: what the gather to come looks at.
+/// ρ (E_k − kept E_{k−1})/π: the new radiosity that the next gather reads.
 inline float new_radiosity(double albedo, float irradiance, float before, double kept) {
   return static_cast<float>(albedo) * (irradiance - static_cast<float>(kept) * before);
 }
 
-/// What steps are taken on: the receivers of a surface, or of a window of it.
+/// Where steps are taken: the receivers of a surface, or of a window of it.
 struct StepGround {
   const MapGather& gather;
   const Map& sky;  ///< A
@@ -38,8 +38,8 @@ struct StepGround {
   const Watch& watch;
 };
 
-/// Gathers the new radiosity of several fields, and takes one step of each. `turn.sky` is not used. Returns
-/// what it would change, by fields; nothing where nobody wants to know.
+/// Gathers the new radiosity of several fields, and takes one step of each. `turn.sky` is ignored. Returns
+/// per field what a step of weight 1 would change; nothing unless `tells`.
 std::vector<ChangeSum> take_step(const StepGround& ground, GatherTurn turn,
                                  const std::vector<const FieldPyramid*>& radiosity,
                                  const std::vector<GatherField*>& fields, bool tells);

@@ -32,10 +32,10 @@ constexpr GI kGI;
 /// Rows walked together: what is fetched for one of them serves all.
 constexpr std::size_t kGatherRows = kGatherBlockRows;
 
-/// What one vector of receivers finds on its way along one azimuth.
+/// What one vector of receivers finds along one azimuth.
 struct RisingSamples {
-  hwy::AlignedFreeUniquePtr<float[]> slopes;  ///< under which each sample is seen, a vector each
-  std::vector<std::uint32_t> rising;          ///< numbers of those that rise above all before, for any lane
+  hwy::AlignedFreeUniquePtr<float[]> slopes;  ///< under which each sample is seen: one vector per sample
+  std::vector<std::uint32_t> rising;  ///< numbers of the samples that rise above all before, in any lane
   std::size_t count = 0;
 
   explicit RisingSamples(std::size_t samples)
@@ -46,7 +46,7 @@ struct RisingSamples {
 
 using RisingRows = std::array<RisingSamples, kGatherRows>;
 
-/// Neighbouring receivers, a vector in each row, on their way along one azimuth.
+/// Neighbouring receivers, one vector in each row, that walk along one azimuth.
 class GatherLanes {
  public:
   GatherLanes(const GatherTask& task, const GatherAzimuth& azimuth, int row, int column)
@@ -65,8 +65,8 @@ class GatherLanes {
     }
   }
 
-  /// Looks at all samples first; gather() then gives weight to those that rise. In one loop, whether a sample
-  /// does is what the machine would guess wrongly, and wait for.
+  /// Examines all samples first; gather() then weighs those that rise. In a single loop, whether a sample
+  /// rises would be a branch that the processor often mispredicts.
   HWY_INLINE void look(RisingRows& rows) {
     std::array<Looking, kGatherRows> looking;
     for (std::size_t v = 0; v < kGatherRows; ++v) looking[v] = start_looking(v, rows[v]);
@@ -121,7 +121,7 @@ class GatherLanes {
       horizon.seen = hn::IfThenElse(rises, next.seen, horizon.seen);
       horizon.towards = hn::IfThenElse(rises, next.towards, horizon.towards);
     }
-    // What rose too little to be looked at belongs to the last thing seen.
+    // Rises too small to be gathered by themselves belong to the last part of the surface that was seen.
     const Horizon highest = horizon_at(c, n_z, slope_[v]);
     const GV rest = hn::Max(hn::Sub(highest.seen, horizon.seen), hn::Zero(kGF));
     for (std::size_t f = 0; f < kFields; ++f)
@@ -132,8 +132,8 @@ class GatherLanes {
  private:
   static constexpr std::size_t kAtOnce = 8;
 
-  /// A slope, the cosine of its elevation h, the mass of what lies below it, but for a constant, and how that
-  /// grows with h: (c cos h + n_z sin h) cos h.
+  /// A slope; the cosine of its elevation h; −S of the slope up to a constant, which grows with what lies
+  /// below it (`seen`); and c cos h + n_z sin h (`towards`): `seen` grows with h by 2 cos h times that.
   struct Horizon {
     GV slope, cosine, seen, towards;
   };
@@ -147,9 +147,9 @@ class GatherLanes {
     return hn::MulAdd(hn::Abs(m), least, hn::Add(m, least));
   }
 
-  /// −S(m) but for a constant: c (h + sin h cos h) − n_z cos²h. With a = |sin h|, acos a = cos h · R(a),
-  /// where R is smooth: a polynomial gives it to 2e-5 (Lawson's algorithm), enough for weights of which only
-  /// the ratios count.
+  /// −S(m) up to a constant: c (h + sin h cos h) − n_z cos²h. With a = |sin h|, acos a = cos h · R(a), where
+  /// R is smooth. A polynomial approximates R to 2e-5 (Lawson's algorithm), which suffices for weights of
+  /// which only the ratios count.
   static HWY_INLINE Horizon horizon_at(GV c, GV n_z, GV slope) {
     constexpr std::array<float, 6> kRatio{1.5707749F,  -0.9982547F, 0.7620501F,
                                           -0.5471174F, 0.2818592F,  -0.0693335F};
@@ -163,19 +163,19 @@ class GatherLanes {
     GV ratio = hn::Set(kGF, kRatio[5]);
     for (std::size_t i = 5; i-- > 0;) ratio = hn::MulAdd(ratio, sine, hn::Set(kGF, kRatio[i]));
     const GV half_pi = hn::Set(kGF, kRatio[0]);
-    // From level ground to |h|: h + sin h cos h, odd in h.
+    // The integral from the horizontal to |h|: h + sin h cos h, odd in h.
     const GV below = hn::CopySign(hn::NegMulAdd(cosine, hn::Sub(ratio, sine), half_pi), slope);
     const GV towards = hn::MulAdd(c, cosine, hn::Mul(n_z, hn::CopySign(sine, slope)));
     return {slope, cosine, hn::NegMulAdd(n_z, hn::Mul(cosine, cosine), hn::Mul(c, below)),
             hn::Max(towards, hn::Zero(kGF))};
   }
 
-  /// A row of receivers as it looks along its way: apart from *this, so that it stays in registers.
+  /// A row of receivers while it examines samples: kept outside *this, so that it stays in registers.
   struct Looking {
     GV height, slope, bar;
-    const float* here;    ///< the receivers' samples
-    const float* lifted;  ///< the same, of lifted heights
-    float* slopes;        ///< as RisingSamples has them, and
+    const float* here;    ///< the receivers' own samples
+    const float* lifted;  ///< the same in the lifted heights
+    float* slopes;        ///< as in RisingSamples, like `rising` and `count`
     std::uint32_t* rising;
     std::size_t count;
   };
@@ -191,7 +191,7 @@ class GatherLanes {
             .count = 0};
   }
 
-  /// Could anything no nearer than 1 / `per_distance` raise any horizon?
+  /// Whether a sample no nearer than 1 / `per_distance` could raise any receiver's horizon.
   HWY_INLINE bool may_rise(float per_distance, const std::array<Looking, kGatherRows>& looking) const {
     const GV highest = hn::Set(kGF, task_.highest);
     auto rises = hn::FirstN(kGF, 0);
@@ -223,12 +223,12 @@ class GatherLanes {
     return hn::Mul(above, hn::Set(kGF, sample.per_distance));
   }
 
-  /// Of the first receiver in a row.
+  /// Address of the first receiver of row v.
   HWY_INLINE const float* address(const FieldPyramid::Level& level, std::size_t v) const {
     return level.block(row_ + static_cast<int>(v), column_);
   }
 
-  /// The blocks that neighbouring receivers look at.
+  /// The values of the blocks that neighbouring receivers of row v look at.
   HWY_INLINE GV read_blocks(const FieldPyramid::Level& blocks, std::size_t v,
                             const GatherSample& sample) const {
     const int level = sample.level;
@@ -240,7 +240,7 @@ class GatherLanes {
     return hn::TableLookupLanes(hn::LoadU(kGF, blocks.block(row >> level, start >> level)), order);
   }
 
-  /// Of a field in a row of receivers whose own samples of it are `here`.
+  /// Value of a field at a sample, for row v of receivers, whose own samples of the field are `here`.
   HWY_INLINE GV value_at(std::size_t field, std::size_t v, const float* here, std::size_t number) const {
     const GatherSample& sample = azimuth_.samples[number];
     if (number >= azimuth_.near) return read_blocks(task_.fields[field]->level(sample.level), v, sample);
@@ -255,8 +255,8 @@ class GatherLanes {
     return hn::MulAdd(place, hn::Sub(value_at(field, v, here, number), begin), begin);
   }
 
-  /// The middle of the triangle that the receiver is a corner of stands for what is seen of it, as it does
-  /// for rays (ray_traversal.h): the first sample lies on the side across.
+  /// Mean of the field over the triangle that has the receiver as a corner: its middle stands for what is
+  /// seen of it, as it does for rays (ray_traversal.h). The first sample lies on the opposite side.
   HWY_INLINE GV own_facet(const float* here) const {
     const GatherSample& sample = azimuth_.samples[0];
     const GV own = hn::LoadU(kGF, here);
@@ -269,8 +269,8 @@ class GatherLanes {
     return hn::Mul(a, hn::ApproximateReciprocal(hn::Max(b, hn::Set(kGF, 1e-30F))));
   }
 
-  /// How far along the stretch between the sample before and this one the middle of what comes into sight of
-  /// it lies.
+  /// Middle of what comes into sight on the stretch between the sample before and this one, as a share of the
+  /// stretch.
   HWY_INLINE GV place_seen(const Horizon& from, const Horizon& to, const RisingSamples& samples,
                            std::size_t number) const {
     if (number == 0) return hn::Set(kGF, 1.0F);
@@ -286,11 +286,11 @@ class GatherLanes {
     return hn::Min(hn::MulAdd(hn::Sub(one, begin), share, begin), one);
   }
 
-  /// Mean place of the stretch that comes into sight, as a share of it. slice_integrals.h derives the mean
-  /// over the chord between the directions to its ends; here two nodes do, those of Gauss and Legendre in the
-  /// angle δ between the directions. The one at the share f of δ lies at t = sin fδ / (sin fδ + sin (1 − f)δ)
-  /// of the chord, to which a cubic in 1 − cos δ comes within .001 up to 120°; and there 1/|v|⁴ is the same
-  /// at both.
+  /// Mean place of the part of the stretch that comes into sight, as a share of that part. slice_integrals.h
+  /// derives the mean over the chord between the directions to its ends. Here two Gauss–Legendre nodes in the
+  /// angle δ between the directions suffice. The node at the share f of δ lies at t = sin fδ / (sin fδ + sin
+  /// (1 − f)δ) of the chord, which a cubic in 1 − cos δ approximates to within .001 up to 120°; 1/|v|⁴ is the
+  /// same at both nodes.
   static HWY_INLINE GV mean_share(const Horizon& from, const Horizon& to, GV from_way, GV to_way) {
     const GV one = hn::Set(kGF, 1.0F);
     const GV sines = hn::Mul(hn::Mul(from.slope, from.cosine), hn::Mul(to.slope, to.cosine));
@@ -325,7 +325,7 @@ class GatherLanes {
   std::array<GV, kGatherRows> height_, tangent_, slope_;
 };
 
-/// Makes means of the sums of a vector of receivers in each row.
+/// Turns the sums of one vector of receivers in each row into means over the azimuths.
 template <std::size_t kFields>
 HWY_INLINE void divide(float azimuths, int row, int column, GatherSums& sums) {
   const GV share = hn::Set(kGF, 1 / azimuths);

@@ -10,27 +10,28 @@
 namespace heightlight {
 namespace {
 
-/// Of what gathers may leave, the share that ending takes.
+/// Share of the error wanted of gathers that ending them may take.
 constexpr double kEndShare = 0.35;
 
-/// However much of the error what A errs by takes: no less than this share of it is left for gathers.
+/// However much of the error aimed at the error of A takes, at least this share of it is left for gathers.
 constexpr double kLeastShare = 0.4;
 
-/// Sampling that leaves less than this share of the error need not be finer.
+/// Where sampling leaves less than this share of the error wanted, finer samples are not tried.
 constexpr double kFineEnough = 0.3;
 
-/// What few azimuths leave is little if it is no more than this share of what sampling does.
+/// The error of few azimuths is small if it is no more than this share of the error of sampling.
 constexpr double kLittle = 0.5;
 
-/// A finer walk that leaves more than this of the error is not worth it.
+/// A finer walk that leaves more than this share of the coarser walk's error is not worth it.
 constexpr double kWorthFiner = 0.9;
 
-/// What the noise of the radiosity that the last gather sees adds to its own, as a share of what as many
-/// azimuths leave by themselves: on bricks 0.5 to 0.7, where along a joint all receivers see it alike, on
-/// fractal ground half of that.
+/// The noise of the radiosity that the last gather reads adds to the noise of the gather itself. It adds this
+/// share of the error of a gather along the same number of azimuths: on bricks 0.5 to 0.7, where all
+/// receivers along a joint see the same noise, on fractal ground half of that.
 constexpr double kCarriedShare = 0.5;
 
-/// Azimuths in the sums of the gather that has so many left, itself among them, as they weigh there.
+/// Azimuths in the sums of a gather, each with its weight there, when `left` gathers are left, itself
+/// included.
 double azimuths_together(int left, int last_azimuths) {
   constexpr int kGathers = 5;
   double azimuths = 0;
@@ -39,8 +40,8 @@ double azimuths_together(int left, int last_azimuths) {
   return azimuths;
 }
 
-/// What a gather of few azimuths leaves: measured for 2, 4, 8 and 16, between them and beyond as from 8
-/// to 16.
+/// The error of a gather along few azimuths. It is measured for 2, 4, 8 and 16; between and beyond these it
+/// falls as it does from 8 to 16.
 class AzimuthErrors {
  public:
   AzimuthErrors(const GatherCalibration& calibration, const Map& x)
@@ -48,7 +49,7 @@ class AzimuthErrors {
     find_order();
   }
 
-  /// The largest of any radiosity.
+  /// Takes the largest error of all radiosities.
   AzimuthErrors(const GatherCalibration& calibration, const std::vector<PlanRadiosity>& radiosities) {
     for (const PlanRadiosity& radiosity : radiosities) {
       const GatherCalibration::AzimuthTrials found = calibration.azimuth_errors(radiosity.seen);
@@ -71,10 +72,10 @@ class AzimuthErrors {
   double order_ = 1;
 };
 
-/// Of the error aimed at, the share that few azimuths may take in the first of single bounces.
+/// Share of the error aimed at that few azimuths may take in the first of single bounces.
 constexpr double kBounceShare = 0.7;
 
-/// The fewest azimuths by which the first bounce, which gathers A, errs by no more.
+/// The fewest azimuths with which the first bounce, a gather of A, errs by no more than `error`.
 int choose_bounce_azimuths(const AzimuthErrors& errors, double error) {
   constexpr int kMostAzimuths = 192;
   int azimuths = 4;
@@ -82,20 +83,20 @@ int choose_bounce_azimuths(const AzimuthErrors& errors, double error) {
   return azimuths;
 }
 
-/// Of what the last gather's azimuths leave by themselves, the share that those before do not make up for:
-/// turned azimuths lie less evenly than as many of one gather. It tells where few azimuths do for evenness'
-/// sake alone, such as on ridges.
+/// Share of the error of the last gather's own azimuths that earlier gathers do not remove: azimuths turned
+/// from gather to gather lie less evenly than as many azimuths of a single gather. This decides where few
+/// azimuths suffice only because they are even, such as on ridges.
 constexpr double kUnevenShare = 0.2;
 
-/// What the azimuths of gathers leave whose last ones walk K.
+/// The error that azimuths leave when each of the last gathers walks `azimuths`.
 double azimuths_leave(const AzimuthErrors& errors, int azimuths) {
   return std::hypot(errors.at(azimuths_together(1, azimuths)),
                     kCarriedShare * errors.at(azimuths_together(2, azimuths)),
                     kUnevenShare * errors.at(azimuths));
 }
 
-/// What five gathers cost, a usual number: an azimuth took 24, 30, 34, 42, 49, 59 and 70 ns per texel for ν
-/// of 8, 12, 16, 24, 32, 48 and 64 on bricks, and walking none of them 15.
+/// Cost of five gathers, a usual number. An azimuth took 24, 30, 34, 42, 49, 59 and 70 ns per texel for ν of
+/// 8, 12, 16, 24, 32, 48 and 64 on bricks, and a gather without azimuths 15.
 double gathers_cost(int samples_per_octave, int azimuths) {
   constexpr int kGathers = 5;
   double walked = 0;
@@ -103,18 +104,18 @@ double gathers_cost(int samples_per_octave, int azimuths) {
   return kGathers * 15 + walked * (17 + 0.85 * samples_per_octave);
 }
 
-/// A plan's samples per octave and azimuths, what they leave, and what they cost.
+/// A plan with its samples per octave, azimuths and error, and its cost.
 struct Candidate {
   GatherPlan plan = {};
   double cost = 0;
 };
 
-/// Azimuths at most: of the sky's irradiance more tell little that fewer do not; of a sun's, which lights one
-/// side of a roof and not the other, they tell much.
+/// The most azimuths to try. Under the sky more azimuths add little; with a sun, which lights one side of a
+/// roof and not the other, they add much.
 constexpr int most_azimuths(double unevenness) { return unevenness > 1 ? 256 : 64; }
 
-/// With the fewest azimuths that leave no more than the error beside what sampling leaves; if none do, with
-/// so many that they leave little beside it.
+/// Chooses the fewest azimuths that, together with the error of sampling, leave no more than the error
+/// wanted. If there are none, chooses so many that their error is small beside that of sampling.
 Candidate choose_azimuths(const AzimuthErrors& errors, double sampled, double wanted, GatherPlan plan) {
   for (const int azimuths : {2, 4, 8, 12, 16, 20, 24, 32, 40, 48, 64, 96, 128, 192, 256}) {
     if (azimuths > most_azimuths(plan.unevenness)) break;
@@ -132,13 +133,13 @@ bool is_better(const Candidate& a, const Candidate& b, double wanted) {
   return meets ? a.cost < b.cost : a.plan.error < kWorthFiner * b.plan.error;
 }
 
-/// What is left of the error of a total beside what A brings.
+/// The part of a total's error that is left for gathers beside what A brings, `by_sky`.
 double error_for_gathers(double error, double by_sky) {
   const double aim = kTotalAim * error;
   return std::sqrt(std::max(aim * aim - by_sky * by_sky, kLeastShare * aim * (kLeastShare * aim)));
 }
 
-/// Radiosity / π at kPlanAlbedo, by E/π of every texel as a function of its index.
+/// Radiosity / π at kPlanAlbedo; `irradiance(i)` is E/π of texel i.
 template <class Irradiance>
 Map radiosity_of(const Map& sky, Irradiance&& irradiance) {
   Map radiosity(sky.width, sky.height);
@@ -149,8 +150,8 @@ Map radiosity_of(const Map& sky, Irradiance&& irradiance) {
   return radiosity;
 }
 
-/// Light of one's own. Of what it brings by bounces the closed form knows under the sky, G − A; in the mean
-/// it goes with the direct irradiance of what is seen.
+/// Radiosity of a user-given light. The closed form knows under the sky what bounces bring, G − A. For the
+/// light this is scaled by the ratio of the two mean direct irradiances of what is seen.
 PlanRadiosity plan_radiosity(const Surface& surface, const Map& sky, const TexelVector& direct) {
   const double brightest = *std::max_element(direct.begin(), direct.end());
   const double per_unit = brightest > 0 ? 1 / brightest : 0;
@@ -172,7 +173,7 @@ PlanRadiosity plan_radiosity(const Surface& surface, const Map& sky, const Texel
           .unevenness = unevenness({.direct = &direct, .albedo = kPlanAlbedo}, sky, surface)};
 }
 
-/// RMSE that sampling brings into a total of the radiosity that it brings most into.
+/// RMSE that sampling brings into a total, for the radiosity for which it is largest.
 double sampling_error(const GatherCalibration& calibration, const MapGather& gather,
                       const std::vector<PlanRadiosity>& radiosities) {
   double largest = 0;

@@ -6,7 +6,8 @@
 namespace heightlight {
 namespace {
 
-/// 0 … count − 1, first every 2^kMostHalvings-th, then what makes them every other of these, and so on.
+/// The numbers 0 … count − 1: first every 2^kMostHalvings-th, then those that halve the step between these,
+/// and so on.
 std::vector<int> spread_order(int count) {
   std::vector<int> order;
   for (int step = 1 << kMostHalvings; step > 0; step /= 2) {
@@ -18,7 +19,7 @@ std::vector<int> spread_order(int count) {
   return order;
 }
 
-/// Of a table, for pyramids whose level 0 has this stride.
+/// Copies a table's samples, near ones first, for pyramids whose level 0 has this stride.
 GatherAzimuth flatten(const AzimuthTable& table, std::ptrdiff_t stride) {
   GatherAzimuth azimuth{.world_x = table.world_x, .world_y = table.world_y, .samples = {}};
   azimuth.lifted = table.lifted;

@@ -1,4 +1,4 @@
-// The walk with one lane a vector, whatever the machine has: what the lanes must agree with.
+// The walk with one lane per vector, whatever the machine has: the reference for the vector code.
 
 #define HWY_COMPILE_ONLY_SCALAR
 #include <hwy/highway.h>

@@ -1,4 +1,4 @@
-// The lanes of the vector hold neighbouring receivers of a row.
+// The lanes of a vector hold neighbouring receivers of a row.
 
 #include <hwy/aligned_allocator.h>
 

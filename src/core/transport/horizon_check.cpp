@@ -17,9 +17,9 @@ namespace {
 constexpr std::int64_t kReceivers = 512;
 constexpr int kMostRounds = 4;
 
-/// A figure whose standard error is less than this share of it is good enough, unless twice that leaves open
-/// whether the error wanted was missed; so is one that twice its standard error does not take beyond this
-/// share of the error wanted.
+/// An RMSE whose standard error is at most kGoodEnough of it is good enough, unless twice the standard error
+/// leaves open whether the error wanted was missed. It is also good enough if the RMSE and twice its standard
+/// error together are at most kClearlyMet of the error wanted.
 constexpr double kGoodEnough = 0.1;
 constexpr double kClearlyMet = 0.9;
 
@@ -30,7 +30,7 @@ std::int64_t texels_of(const ExactWalker& walker) {
 struct ReceiverError {
   double ambient = 0;
   double sky = 0;
-  std::vector<FoundError> totals = {};  ///< each by itself
+  std::vector<FoundError> totals = {};  ///< one per total
 };
 
 /// What all receivers of a check share.
@@ -59,7 +59,7 @@ double find_residual(const Check& check, const FoundTotal& checked, const SliceV
   return checked.total(texel) - direct_irradiance(check, checked, view, texel) - gathered;
 }
 
-/// What the walker sees from a texel.
+/// The exact view from a texel.
 SliceView view_from(const Check& check, std::size_t texel) {
   const auto width = static_cast<std::size_t>(check.walker.surface().width());
   SliceView view;
@@ -67,7 +67,7 @@ SliceView view_from(const Check& check, std::size_t texel) {
   return view;
 }
 
-/// A texel that the view shows, picked by its form factor; of those who see little, most pick none.
+/// A texel that the view shows, picked by its form factor. Receivers that see little mostly pick none.
 std::optional<std::size_t> pick_seen(const Check& check, const SliceView& view, std::uint64_t hash) {
   const double share = 1 - view.sky_view_factor;
   if (unit_real(hash) > share * share) return std::nullopt;
@@ -101,7 +101,7 @@ ReceiverError find_error(const Check& check, const SliceView& view, std::size_t 
   return error;
 }
 
-/// Of the total with index `t`.
+/// The check of the total with index `t`.
 HorizonCheck sum_up(const std::vector<ReceiverError>& errors, std::size_t t, int azimuths) {
   HorizonCheck check{.receivers = static_cast<int>(errors.size()), .azimuths = azimuths};
   if (errors.empty()) return check;
@@ -135,7 +135,7 @@ bool is_good_enough(const HorizonCheck& check, double error_wanted) {
          check.total_rmse + either_way <= kClearlyMet * error_wanted;
 }
 
-/// Walks from some more receivers.
+/// Adds the errors of further receivers, found by exact walks.
 void add_receivers(const Check& check, std::uint64_t seed, const Watch& watch,
                    std::vector<ReceiverError>& errors) {
   const std::int64_t texels = texels_of(check.walker);
@@ -170,7 +170,7 @@ std::vector<HorizonCheck> check_found(const ExactWalker& walker, const FoundMaps
   std::vector<ReceiverError> errors;
   std::vector<HorizonCheck> checks(found.totals.size());
   std::vector<bool> good(
-      found.totals.size());  // a figure stays that is good enough, whatever the others want
+      found.totals.size());  // a figure that is good enough stays as it is while others are refined
   for (int round = 0; round < kMostRounds; ++round) {
     const std::uint64_t seed = hash_combine(options.seed + 2, static_cast<std::uint64_t>(round));
     add_receivers(check, seed, options.watch, errors);

@@ -11,51 +11,52 @@
 
 namespace heightlight {
 
-/// Of the error wanted, what plans aim at: the calibration samples are small, and miss some of the tails.
+/// Shares of the error wanted that plans of the sky and of totals aim at: the calibration samples are small,
+/// and miss part of the errors' tails.
 constexpr double kSkyAim = 0.8;
 constexpr double kTotalAim = 0.85;
 
-/// What a plan's walk of the sky costs, K (5 + ν), less where every other azimuth is walked: an azimuth took
-/// 4.3, 5.4, 7.1, 9.1 and 11.5 ns for ν of 8, 12, 16, 24 and 32.
+/// Cost of a plan's walk of the sky: K (5 + ν) for K azimuths at ν samples per octave, less where receivers
+/// walk every other azimuth. An azimuth took 4.3, 5.4, 7.1, 9.1 and 11.5 ns for ν of 8, 12, 16, 24 and 32.
 double sky_cost(const SkyPlan& plan);
 
-/// How the sky is to be walked.
+/// Chooses how the sky is to be walked.
 SkyPlan plan_sky(SkyCalibration& calibration, const HorizonGoal& goal);
 
-/// What totals are planned for: a radiosity / π at kPlanAlbedo, in units of the brightest direct
-/// irradiance, as closed forms have it. What gathers make of it errs by about as much as what they make of
-/// the true one.
+/// A radiosity / π that totals are planned for: at kPlanAlbedo, in units of the brightest direct irradiance,
+/// by closed forms. Gathers of it err by about as much as gathers of the true radiosity.
 struct PlanRadiosity {
   Map radiosity;
-  std::vector<GatherCalibration::SeenField> seen;  ///< of the radiosity, by the calibration's receivers
-  double per_sky = 1;                              ///< what direct irradiance changes by with A
-  double unevenness = 1;                           ///< as GatherPlan has it
+  std::vector<GatherCalibration::SeenField> seen;  ///< the radiosity as the calibration's receivers see it
+  double per_sky = 1;                              ///< change of the direct irradiance per change of A
+  double unevenness = 1;                           ///< as in GatherPlan
 };
 
-/// Those of a goal, at least one.
+/// Finds the radiosities that a goal's totals are planned for; there is at least one.
 std::vector<PlanRadiosity> plan_radiosities(const GatherCalibration& calibration, const Map& sky,
                                             const HorizonGoal& goal);
 
-/// A sky as it was walked, and the RMSE of a total at kPlanAlbedo that what A errs by brings.
+/// A sky that was walked, and the RMSE that the error of A brings into a total at kPlanAlbedo.
 struct PlannedSky {
   SkyPlan plan = {};
   HorizonSky sky = {};
   std::vector<PlanRadiosity> radiosities = {};
-  double effect = 0;  ///< of the radiosity that it is largest for
+  double effect = 0;  ///< that RMSE, for the radiosity for which it is largest
 };
 
-/// A total hangs on A by more than A's own error, where that is of one sign along a wall. Where it would take
-/// most of the total's error, A is walked once more, and better than it was wanted.
+/// Plans and walks the sky. Where the error of A has one sign along a wall, it changes a total by more than
+/// itself. Where it would take most of the total's error, the sky is walked once more, with less error in A
+/// than the goal asks for.
 PlannedSky find_sky_for_totals(const HeightPyramid& pyramid, const HorizonGoal& goal, const SkyWanted& wanted,
                                GatherCalibration& gathers, const Watch& watch);
 
-/// How gathers are to be walked, and what walks them.
+/// How gathers are to be walked, and the object that walks them.
 struct PlannedGather {
   GatherPlan plan = {};
   std::unique_ptr<MapGather> gather = {};
 };
 
-/// Once the sky is known; `error` is the RMSE wanted of a total.
+/// Plans the gathers once the sky is known; `error` is the RMSE wanted of a total.
 PlannedGather plan_gather(const GatherCalibration& calibration, const HeightPyramid& pyramid, double error,
                           const PlannedSky& planned_sky);
 

@@ -19,7 +19,8 @@ TexelVector to_vector(const Map& map) {
   return values;
 }
 
-/// Bounces live on in narrow places, which coarse walks miss.
+/// Fewest samples per octave for single bounces: late bounces remain in narrow places, which coarse walks
+/// miss.
 constexpr int kBounceFineness = 16;
 
 class HorizonTransport : public Transport {

@@ -8,14 +8,14 @@
 
 namespace heightlight {
 
-/// A vertex of the facet that a link ends on, and its share of a function that is linear there.
+/// A vertex of the facet that a link ends on, and its weight in linear interpolation there.
 struct LinkCorner {
-  std::uint64_t row;  ///< of the map, which tiling may take around its edge
+  std::uint64_t row;  ///< of the map; may lie beyond its edge, where tiling wraps it
   std::uint64_t column;
   double share;
 };
 
-/// The four vertices of the link's cell; the shares of three at most are above 0, and sum to 1.
+/// The four vertices of the link's cell. At most three have shares above 0; the shares sum to 1.
 inline std::array<LinkCorner, 4> corners_of(const Link& link, int map_width) {
   const auto stride = static_cast<std::uint64_t>(map_width) + 1;
   const std::uint64_t row = link.cell / stride;

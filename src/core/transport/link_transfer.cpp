@@ -9,14 +9,14 @@
 #include "transport/link_corners.h"
 #include "visibility/exact_sky.h"
 
-// Umenhoffer et al. 2009, eqs. 5 and 6, from the links that a receiver has: each is a surface seen under a
-// form factor F, at a distance d, which counts as open by μ(d):
+// Umenhoffer et al. 2009, eqs. 5 and 6, from the links of a receiver. Each link is a surface seen with a form
+// factor F at a distance d, which counts as open by the share μ(d):
 //     O = A + Σ F μ(d),   W = O/(1 − Σ F (1 − μ(d)) ρ).
 
 namespace heightlight {
 namespace {
 
-/// Where a link ends, in texels, and what is there.
+/// The place where a link ends, in texels, with its height and albedo.
 struct SeenPlace {
   double row = 0;
   double column = 0;
@@ -39,7 +39,7 @@ SeenPlace find_place(const Surface& surface, const FormFactors& form_factors, co
   return place;
 }
 
-/// The shorter way around a tiling map, in texels.
+/// The shorter of the distances around a tiling map, in texels, with its sign.
 double shorter(double texels, int period, bool tiles) {
   return tiles ? texels - period * std::round(texels / period) : texels;
 }
@@ -51,7 +51,7 @@ double distance_to(const Surface& surface, const SeenPlace& place, int row, int 
   return std::sqrt(x * x + y * y + z * z);
 }
 
-/// What the receiver sees, for one channel of the albedo.
+/// Collects what the receiver sees; set_albedos then adds the albedos of one channel.
 void collect_occluders(const Surface& surface, const FormFactors& form_factors,
                        const MaximumDistance& maximum_distance, std::size_t receiver,
                        std::vector<Occluder<double>>& occluders) {

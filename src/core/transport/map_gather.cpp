@@ -16,7 +16,7 @@ struct Workspace {
   GatherSums sums;
 };
 
-/// The RMS of 1 − `sky` over the receivers of a block that are present; 0 of none.
+/// RMS of 1 − `sky` over the receivers present in a block; 0 if there are none.
 double surface_share(const ReceiverTile& tile, const Map& sky, int first_row, int first_column) {
   double squares = 0;
   int present = 0;
@@ -54,7 +54,7 @@ MapGather::MapGather(const Surface& surface, const HeightPyramid& pyramid, const
     : surface_(surface), options_(options), scene_(build_horizon_scene(surface, pyramid, options)) {}
 
 FieldPyramid MapGather::make_pyramid() const {
-  // Up to one block, so that holes find a value. Those of windows have found theirs.
+  // Up to a level of one block, so that holes find a value. The holes of windows have been filled already.
   const int to_one = surface_.around ? 0 : levels_to_one(surface_.width(), surface_.height());
   return {surface_, std::max(ring_count(surface_, options_), to_one), walk_margin(options_)};
 }

@@ -13,7 +13,7 @@
 namespace heightlight {
 namespace {
 
-/// Standard deviation of a field over what is seen: every place weighs its area times 1 − A.
+/// Standard deviation of a field over what is seen: every place has its area times 1 − A as weight.
 template <class Value>
 double seen_spread(const Map& sky, const Surface& surface, Value&& value) {
   double weights = 0;
@@ -33,7 +33,7 @@ double highest_albedo(const IrradianceSystem& system) {
   return *std::max_element(system.varying->begin(), system.varying->end());
 }
 
-/// Of the irradiance `start`, which the system starts with.
+/// Unevenness of the system, which starts with the irradiance `start`.
 double unevenness_of(const IrradianceSystem& system, const Map& start, const Map& sky,
                      const Surface& surface) {
   const double even = seen_spread(sky, surface, [&](std::size_t i) {
@@ -46,7 +46,7 @@ double unevenness_of(const IrradianceSystem& system, const Map& start, const Map
   return even > 0 ? spread / even : 1;
 }
 
-/// What the gather to come looks at of a field.
+/// Makes the pyramid that the next gather of a field reads.
 FieldPyramid radiosity_pyramid(const MapGather& gather, const GatherField& field) {
   Map values(field.irradiance.width, field.irradiance.height);
   for_texels(values, [&](std::size_t i) {
@@ -58,7 +58,7 @@ FieldPyramid radiosity_pyramid(const MapGather& gather, const GatherField& field
   return pyramid;
 }
 
-/// One gather of fields that walk alike, of kMostFields at most.
+/// Makes one gather of fields that walk the same azimuths, at most kMostFields.
 void step_together(int k, const StepGround& ground, double error, const std::vector<GatherField*>& fields) {
   const GatherTurn turn{.azimuths = azimuths_of_gather(fields[0]->course, k), .turn = spread_turn(k + 1)};
   std::vector<FieldPyramid> pyramids;
@@ -94,7 +94,7 @@ double unevenness(const IrradianceSystem& system, const Map& sky, const Surface&
 }
 
 int azimuths_for_unevenness(double found, const ProgressiveGoal& goal) {
-  constexpr double kOrder = 0.75;  // what K azimuths leave falls about as K^−0.75
+  constexpr double kOrder = 0.75;  // the error of K azimuths falls about as K^−0.75
   constexpr double kMost = 16;
   const double more = found / goal.planned_unevenness;
   if (!(more > 1)) return goal.last_azimuths;

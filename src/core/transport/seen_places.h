@@ -9,8 +9,8 @@
 
 namespace heightlight {
 
-/// Rows that tell as much of a map of so many as all of them: all, or of large maps some 256, picked by a
-/// hash.
+/// Rows that represent a map of `height` rows: all rows, or of large maps about 256 that a hash picks, one
+/// from each group of neighbouring rows.
 inline std::vector<int> seen_rows(int height) {
   constexpr int kEnoughRows = 256;
   constexpr std::uint64_t kSeed = 1;
@@ -25,8 +25,9 @@ inline std::vector<int> seen_rows(int height) {
   return rows;
 }
 
-/// Calls visit(i, 1 − A, area) for receivers of the map, whose texels weigh 1/n_z, their area, in seen_rows.
-/// One after the other, so that sums are the same for any number of threads. `sky` is A, NaN where missing.
+/// Calls visit(i, 1 − A, area) for the receivers present in seen_rows. `area` is 1/n_z, the texel's surface
+/// area in units of its area on the map. The calls follow one after the other, so that sums are the same for
+/// any number of threads. `sky` is A, NaN where missing.
 template <class Visit>
 void for_seen_places(const Map& sky, const Surface& surface, Visit&& visit) {
   for (const int row : seen_rows(sky.height)) {

@@ -20,7 +20,7 @@ namespace {
 constexpr CalibrationShape kStrip{.rows = 8, .columns = 16};
 constexpr std::size_t kExactPerStrip = 5;
 
-/// A of an exact view by every other azimuth; NaN where the sample is missing.
+/// A of an exact view from every other azimuth; NaN where the sample is missing.
 double sky_by_even_azimuths(const ExactWalker& walker, const Vector3& normal, const SliceView& view) {
   const Eigen::Vector3d n = as_eigen(normal).cast<double>().normalized();
   SkyShareSum sky;
@@ -34,7 +34,7 @@ double sky_by_even_azimuths(const ExactWalker& walker, const Vector3& normal, co
 }  // namespace
 
 std::uint64_t sky_calibration_bytes(int width, int height) {
-  constexpr std::uint64_t kWalks = 3;  // by many azimuths, by those tried, and by every other of these
+  constexpr std::uint64_t kWalks = 3;  // by many azimuths, by those tried, and by every other of those tried
   const auto strips = static_cast<std::uint64_t>(calibration_strips(width, height));
   return strips * WalkTile::kTexels * kWalks * sizeof(float);
 }
@@ -135,7 +135,8 @@ SamplingError SkyCalibration::sampling_error(int samples_per_octave, float peak_
     const double error = double{walked[receiver.at]} - receiver.sky;
     const double even_error = double{even.sky[receiver.at]} - receiver.even_sky;
     squares += error * error;
-    own += (even_error - error) * (even_error - error);  // half the halves' difference: of the mean of both
+    own += (even_error - error) * (even_error - error);  // half the difference between the two halves of
+                                                         // the azimuths: the random error of their mean
   }
   return {root_mean(std::max(squares - own, 0.0), exact_.size()),
           root_mean(kExactAzimuths * own, exact_.size())};
@@ -167,7 +168,7 @@ double SkyCalibration::azimuth_error(const WalkOptions& options) {
 SkyCalibration::Sparse SkyCalibration::find_sparse(const WalkOptions& options, double error) {
   struct Block {
     double share = 0;
-    double loss = 0;  // squared errors of every other azimuth less those of all
+    double loss = 0;  // squared errors with every other azimuth, less those with all azimuths
     int receivers = 0;
   };
   constexpr std::size_t kBlocks = SkyBlocks().size();

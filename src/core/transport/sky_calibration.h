@@ -9,8 +9,8 @@
 
 namespace heightlight {
 
-/// An error that azimuths share, and one that each has for itself, of which the mean over many keeps little.
-/// Both are RMSE of A; `own` is that of one azimuth.
+/// An error of A in two parts: `shared` by all azimuths, and each azimuth's `own`, of which the mean over
+/// many azimuths keeps little. Both are RMSE of A; `own` is for one azimuth.
 struct SamplingError {
   double shared = 0;
   double own = 0;
@@ -18,29 +18,31 @@ struct SamplingError {
   double at(int azimuths) const { return std::hypot(shared, own / std::sqrt(azimuths)); }
 };
 
-/// Bytes that a calibration of such a map holds.
+/// Bytes that the calibration of a map of that size holds.
 std::uint64_t sky_calibration_bytes(int width, int height);
 
-/// Receivers on which walks of the sky are tried before the whole map is walked: strips of tiles, and among
-/// them some that are walked exactly too.
+/// Receivers on which walks of the sky are tried before the whole map is walked: strips of tiles, in which
+/// some receivers are also walked exactly.
 class SkyCalibration {
  public:
-  /// `surface` and `pyramid` must outlive it. The watch hears of the exact walks, and may end trials too.
-  /// `below`: what few azimuths cost is tried with that; what sampling costs, of which the horizontal hides
-  /// but a part, with the sky.
+  /// `surface` and `pyramid` must outlive this object. The watch is told of the exact walks, and may end
+  /// trials too. `options.below` holds for the trials of few azimuths. The error of sampling is tried with
+  /// BelowHorizontal::sky, as the horizontal hides only part of it.
   SkyCalibration(const Surface& surface, const HeightPyramid& pyramid, const CalibrationOptions& options);
 
   bool empty() const { return exact_.empty(); }
 
-  /// RMSE of A against exact walks along the same azimuths: what sampling costs, apart from few azimuths.
+  /// RMSE of A against exact walks along the same azimuths: the error of sampling without that of few
+  /// azimuths.
   SamplingError sampling_error(int samples_per_octave, float peak_share);
 
-  /// RMSE of A against kManyAzimuths walked alike: what few azimuths cost, apart from sampling.
+  /// RMSE of A against kManyAzimuths walked with the same sampling: the error of few azimuths alone.
   double azimuth_error(const WalkOptions& options);
 
-  /// Where every other azimuth will do: the blocks below a surface_share, as SkyPlan has it; the share of the
-  /// others, which walk all; and the RMSE of A against kManyAzimuths that this leaves, no more than `error`
-  /// where all azimuths everywhere leave no more. `options.azimuths` is a multiple of 4.
+  /// Where every other azimuth suffices. `full_from`: blocks below this surface_share walk every other
+  /// azimuth, as in SkyPlan; `full_share`: share of the receivers that walk all azimuths; `error`: the RMSE
+  /// of A against kManyAzimuths that results, at most the `error` asked for if all azimuths everywhere keep
+  /// to it. `options.azimuths` is a multiple of 4.
   struct Sparse {
     double full_from;
     double full_share;
@@ -58,26 +60,26 @@ class SkyCalibration {
     double even_sky = 1;  ///< A by every other azimuth
   };
 
-  /// What every other azimuth tells.
+  /// What a walk along every other azimuth finds.
   struct EvenWalk {
     std::vector<float> sky;      ///< A of all receivers of the strips
-    std::vector<double> shares;  ///< surface_share of the blocks of each strip's tile
+    std::vector<double> shares;  ///< surface_share of each block of each strip's tile
   };
 
-  /// A of all receivers of the strips, one strip after the other; −1 where there is none.
+  /// Returns A of all receivers of the strips, one strip after the other; −1 where there is no receiver.
   std::vector<float> walk_strips(const WalkOptions& options, BelowHorizontal below, EvenWalk* even = nullptr);
 
-  /// A by kManyAzimuths walked as the options have it, but for their number.
+  /// Returns A by kManyAzimuths, walked with the other options as given.
   const std::vector<float>& many_like(const WalkOptions& options);
 
   const Surface& surface_;
   const HeightPyramid& pyramid_;
   BelowHorizontal below_;
-  Watch trial_watch_;  ///< is told nothing, and asked whether to go on
+  Watch trial_watch_;  ///< reports nothing; asked whether to go on
   std::vector<TileFrame> strips_;
   std::vector<ExactReceiver> exact_;
   WalkOptions many_options_;
-  std::vector<float> many_;  ///< A by kManyAzimuths, made when first asked for
+  std::vector<float> many_;  ///< A by kManyAzimuths, made at the first call of many_like
 };
 
 }  // namespace heightlight

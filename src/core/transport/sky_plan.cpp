@@ -11,22 +11,24 @@ namespace {
 /// Share of the error aimed at that sampling may take.
 constexpr double kSamplingShare = 0.9;
 
-/// Sparse azimuths must cost less than this share of the fewest that are the same everywhere.
+/// Sparse azimuths are used only if they cost less than this share of the fewest uniform azimuths.
 constexpr double kWorthSparse = 0.85;
 
-/// Azimuths from which an error follows by K^(−3/2), as it does for horizons with jumps.
+/// Number of azimuths on trial. With K azimuths the error is then taken to fall as K^(−3/2), as it does for
+/// horizons with jumps.
 constexpr int kTriedAzimuths = 16;
 constexpr double kAzimuthOrder = 1.5;
 constexpr int kFewestAzimuths = 4;
 
-/// Shares of the peaks tried: from 0 to this.
+/// Peak shares are tried from 0 to this, in these steps.
 constexpr float kPeakShareStep = 0.15F;
 constexpr float kHighestPeakShare = 0.75F;
 
 double azimuth_cost(int samples_per_octave) { return 5.0 + samples_per_octave; }
 
-/// The fewest azimuths that should leave no more than the error, of a walk whose sampling errs so: the rest,
-/// `tried` at kTriedAzimuths, falls by kAzimuthOrder. More than kManyAzimuths: none of those looked at.
+/// The fewest azimuths that should leave no more than the error, if sampling errs by `sampling`, and the
+/// error of few azimuths is `tried` at kTriedAzimuths and falls with kAzimuthOrder. More than kManyAzimuths
+/// if no number up to there does.
 int fewest_azimuths(const SamplingError& sampling, double tried, double error) {
   int azimuths = kFewestAzimuths;
   const auto leaves = [&] {
@@ -37,17 +39,17 @@ int fewest_azimuths(const SamplingError& sampling, double tried, double error) {
   return azimuths;
 }
 
-/// The walk that should reach the error at the least cost, as far as its sampling goes. Where no sampling is
-/// good enough, the best.
+/// Chooses the samples per octave and the peak share that should reach the error at the least cost; the most
+/// accurate if none reaches it. `azimuths` > 0 fixes their number.
 WalkOptions choose_sampling(SkyCalibration& calibration, double error, int azimuths, SamplingError& reached) {
   constexpr int kMany = SkyCalibration::kManyAzimuths;
   const double tried = calibration.azimuth_error({kTriedAzimuths, 8, 0.3F});
   WalkOptions best;
   double least = std::numeric_limits<double>::infinity();
   double least_sampling = least;
-  float share = 0;  // the best so far: finer walks want the same, or more
+  float share = 0;  // best so far: finer walks need the same or a larger share
   for (const int samples_per_octave : {8, 12, 16, 20, 24, 32, 48, 64, 96, 128}) {
-    // A finer walk that had no sampling error at all would not pay any more.
+    // Even without any sampling error a finer walk would cost more.
     const int at_least = azimuths > 0 ? azimuths : fewest_azimuths({}, tried, error);
     if (at_least * azimuth_cost(samples_per_octave) >= least) break;
     SamplingError sampling = calibration.sampling_error(samples_per_octave, share);
@@ -58,7 +60,7 @@ WalkOptions choose_sampling(SkyCalibration& calibration, double error, int azimu
       sampling = found;
       share = more;
     }
-    // What is each azimuth's own is in what was tried, too.
+    // The trial contains the part of the sampling error that each azimuth has for itself.
     const double own = sampling.own * sampling.own * (1.0 / kTriedAzimuths - 1.0 / kMany);
     const double quadrature = std::sqrt(std::max(tried * tried - own, 0.5 * tried * tried));
     const int wanted = azimuths > 0 ? azimuths : fewest_azimuths(sampling, quadrature, error);
@@ -74,8 +76,8 @@ WalkOptions choose_sampling(SkyCalibration& calibration, double error, int azimu
   return best;
 }
 
-/// The fewest azimuths that leave no more than the error, in steps of a tenth from the number that a few
-/// tell, upwards or downwards.
+/// The fewest azimuths that leave no more than the error. Starts from the number that a trial of few azimuths
+/// suggests, and goes up or down in steps of a tenth.
 WalkOptions choose_azimuths(SkyCalibration& calibration, WalkOptions options, double error, double& reached) {
   options.azimuths = kTriedAzimuths;
   const double tried = calibration.azimuth_error(options);
@@ -101,8 +103,8 @@ WalkOptions choose_azimuths(SkyCalibration& calibration, WalkOptions options, do
   return options;
 }
 
-/// Somewhat more azimuths, of which open ground walks every other one, where that saves much: of what lies on
-/// which side of the least share, the calibration's few strips tell little.
+/// Tries up to 35 % more azimuths, of which open ground walks every other one, and takes them where that
+/// saves much. The calibration's few strips say little about which blocks lie on which side of the threshold.
 void choose_sparse(SkyCalibration& calibration, double error, SkyPlan& plan, double& reached) {
   double least = kWorthSparse * plan.walk.azimuths;
   const WalkOptions uniform = plan.walk;
@@ -135,14 +137,15 @@ SkyPlan plan_sky(SkyCalibration& calibration, const HorizonGoal& goal) {
   SamplingError sampling;
   double few = 0;
   plan.walk = choose_sampling(calibration, error, goal.azimuths, sampling);
-  const double sampled = sampling.at(SkyCalibration::kManyAzimuths);  // fewer are told by azimuth_error
+  const double sampled = sampling.at(SkyCalibration::kManyAzimuths);  // the further error of fewer azimuths
+                                                                      // is part of azimuth_error
   if (goal.azimuths > 0) {
     plan.walk.azimuths = goal.azimuths;
     few = calibration.azimuth_error(plan.walk);
   } else {
     const double rest = std::sqrt(std::max(error * error - sampled * sampled, 0.25 * error * error));
     plan.walk = choose_azimuths(calibration, plan.walk, rest, few);
-    // Bent normals, of finer goals, lose more by it than A does.
+    // Goals with a smaller sky_share are for bent normals, which lose more accuracy by it than A does.
     if (goal.sky_share == 1) choose_sparse(calibration, rest, plan, few);
   }
   plan.error = std::hypot(sampled, few);
@@ -153,8 +156,9 @@ SkyPlan plan_sky(SkyCalibration& calibration, const HorizonGoal& goal) {
 PlannedSky find_sky_for_totals(const HeightPyramid& pyramid, const HorizonGoal& goal, const SkyWanted& wanted,
                                GatherCalibration& gathers, const Watch& watch) {
   constexpr double kMostOfTotal = 0.75;
-  // Gathers pass on what neighbours err alike: on bricks and fractal ground totals changed by 0.9 to 1.6
-  // times the last step's share of what A errs by, the most where sampling costs more than few azimuths do.
+  // Gathers pass on errors that neighbours share: on bricks and fractal ground totals changed by 0.9 to 1.6
+  // times what the last step makes of the error of A, and most where sampling costs more than few azimuths
+  // do.
   constexpr double kPassedOn = 1.2;
   constexpr double kLeastOfError = 0.35;
   const Surface& surface = gathers.surface();

@@ -11,18 +11,18 @@
 namespace heightlight {
 namespace {
 
-/// Light of less than this share of the error wanted is not walked for.
+/// A field smaller than this share of the error wanted is not walked for.
 constexpr double kNegligible = 1e-2;
 
-/// Bounces that leave more than this of what was left fall slowly.
+/// Bounces that leave more than this share of what was left fall slowly.
 constexpr double kSlow = 0.5;
 
-/// Azimuths of a bounce, at least, and of any receiver that walks: late bounces are shown on a logarithmic
-/// scale.
+/// Fewest azimuths of a bounce, and fewest of any receiver that walks. There must be some for late bounces
+/// too, which are shown on a logarithmic scale.
 constexpr int kFewest = 4;
 constexpr int kFewestAnywhere = 2;
 
-/// A field whose square varies by less than this share is one value.
+/// A field whose variance is less than this share of its mean square counts as constant.
 constexpr double kOneValue = 1e-12;
 
 }  // namespace
@@ -56,7 +56,7 @@ TexelVector WalkedBounces::next(const TexelVector& last, const TexelVector& sum)
 }
 
 TexelVector WalkedBounces::follow(const TexelVector& field, const Likeness& likeness) {
-  // Where nothing was walked before, the field before is another one, and tells no ratio.
+  // Before the first walk of this sequence the field before is another one, and gives no ratio.
   const bool negligible = azimuths_ > 0 && likeness.size < kNegligible * walk_.error;
   TexelVector next = negligible ? to_texels(likeness.ratio * as_eigen(field)) : walk(field, likeness);
   before_ = field;
