@@ -60,17 +60,19 @@ struct EnergyAudit {
   double absorbed = 0;   ///< share of the received energy that texels absorb
   double escaped = 0;    ///< share of the received energy that escapes to the sky
   double imbalance = 0;  ///< 1 − absorbed − escaped
-  /// The imbalance before the total was balanced, which is the error from gathers and samples. Only totals of
-  /// a user-given light are balanced; for others it equals `imbalance`.
+  /// The imbalance before the total was balanced, which is the error of gathers and samples. Balanced are
+  /// totals of a user-given light, and of a sky with nothing below the horizontal. For others it equals
+  /// `imbalance`.
   double found_imbalance = 0;
 };
 
-/// The mean sky view factor of what texels see of the surface, weighted by how much of it they see; in [0,
-/// 1].
+/// The mean sky view factor of what texels see of the surface, weighted by how much of it they see; in
+/// [0, 1].
 struct SeenSky {
-  double expected =
-      1;  ///< s of the closed forms: predicted by reciprocity, from the sky view factor and the normals alone
-  double deep = 1;  ///< t of the closed forms: n of the deepest places, tuned to the whole map
+  /// s of the closed forms: predicted by reciprocity, from the sky view factor and the normals alone.
+  double expected = 1;
+  /// t of the closed forms: n of the deepest places, tuned to the whole map.
+  double deep = 1;
   /// As measured from the first bounce. It differs from `expected` where samples do not resolve the surface.
   double mean = 1;
 };
@@ -78,10 +80,11 @@ struct SeenSky {
 /// Wall-clock seconds of each step.
 struct SolveTimes {
   double visibility = 0;  ///< planning, walks, and finding links
-  double transport = 0;  ///< checking the row sums of the operator; 0 where single bounces were not asked for
-  double bounces = 0;    ///< totals, single bounces and n, without the time of the sink
-  double sink = 0;       ///< time that the sink of the bounces took
-  double check = 0;  ///< estimating the errors, and finding totals once more where they miss the error wanted
+  double transport = 0;   ///< checking the row sums of the operator, where single bounces are checked
+  double bounces = 0;     ///< totals, single bounces and n, without the time of the sink
+  double sink = 0;        ///< time that the sink of the bounces took
+  /// Estimating the errors, and finding totals once more where they miss the error wanted.
+  double check = 0;
 };
 
 /// How a solution was found, its errors, and its cost.
@@ -103,15 +106,14 @@ struct Evidence {
 
   // What it errs by.
   /// RMSE of A, by the most reliable check that was made; absent where A was not checked or there is no
-  /// receiver
+  /// receiver.
   std::optional<double> sky_rmse;
   std::optional<SkyCheck> sky_check;               ///< of the maps of the sky
   std::vector<DefinitionCheck> definition_checks;  ///< per definition asked for
-  std::vector<HorizonCheck>
-      /// Per albedo: the errors of A, and of the total in the channel with the largest error.
-      total_checks;
+  /// Per albedo: the errors of A, and of the total in the channel with the largest error.
+  std::vector<HorizonCheck> total_checks;
   std::vector<EnergyAudit> audits;  ///< per channel of each total, in the order of the totals
-  /// RMSE of E₀/π … E_K/π; empty where single bounces were not asked for or not checked
+  /// RMSE of E₀/π … E_K/π; empty where single bounces were not asked for or not checked.
   std::vector<double> bounce_rmse;
   /// The first check found totals that miss the error wanted, and these were found once more.
   bool refined = false;
@@ -119,7 +121,8 @@ struct Evidence {
   double solver_residual = 0;  ///< largest relative residual of the linear solves on stored links
   int solver_iterations = 0;   ///< largest number of iterations among them
 
-  // How well energy is conserved; present where single bounces were asked for.
+  // How well energy is conserved: `energy` where single bounces are checked for it, `seen` where they were
+  // asked for.
   std::optional<EnergyCheck> energy;
   std::optional<SeenSky> seen;
 
@@ -132,8 +135,8 @@ struct Evidence {
 
 /// Returns a sentence that names the errors found by the checks to miss the error wanted; empty where none
 /// does, or where none was wanted. An error misses if it is more than 15 % above the one wanted. The error of
-/// a total also misses if it is above the one wanted and, with the check's standard error added, more than 15
-/// % above it.
+/// a total also misses if it is above the one wanted and, with the check's standard error added, more than
+/// 15 % above it.
 std::string missed_error(const Evidence& evidence);
 
 /// Returns the faults of a solution, one line each: an error that misses the one wanted, and a linear solve

@@ -13,8 +13,8 @@ namespace heightlight {
 /// A tag of a TIFF as it stands in the file's directory, with its bytes in the byte order of this machine.
 struct GeoTag {
   std::uint16_t number = 0;
-  std::uint16_t type =
-      0;  ///< type of its values: 2 is text, with its final 0; 3 is unsigned 16 bits; 12 is double
+  /// Type of its values: 2 is text, with its final 0; 3 is unsigned 16 bits; 12 is double.
+  std::uint16_t type = 0;
   std::string bytes;
 
   friend bool operator==(const GeoTag&, const GeoTag&) = default;
@@ -30,15 +30,15 @@ struct Georeference {
   bool in_degrees = false;  ///< the coordinates are longitudes and latitudes, in degrees
   /// Metres per unit of the coordinates; absent for degrees, and for lengths of an unknown unit.
   std::optional<double> metres = {};
-  std::optional<double> height_metres =
-      {};  ///< metres per unit of the heights; absent where the file does not give it
+  /// Metres per unit of the heights; absent where the file does not give it.
+  std::optional<double> height_metres = {};
   /// Equatorial radius in metres of the ellipsoid that degrees refer to, such as 1737400 for the moon; absent
   /// where the file does not give it.
   std::optional<double> equator_radius = {};
   /// Coordinate system as the file names it: "EPSG:32631"; empty where the file names none.
   std::string system = {};
-  /// Well-known text of the coordinate system, from the .prj file beside the map or from the GeoTIFF's own
-  /// keys; empty where there is none.
+  /// Text of the .prj file beside the map, or the well-known text among a GeoTIFF's keys; empty where there
+  /// is neither.
   std::string projection = {};
   /// The GeoTIFF tags that say all of this, the no-data value included.
   std::vector<GeoTag> tags = {};
