@@ -59,8 +59,8 @@ SpecularOcclusion specular_occlusion(const Surface& surface, const SpecularOptio
 /// A place in the table of GTSO (Jimenez 2016, eq. 30): a cone that stands for the open directions, and a
 /// lobe.
 struct ConeArguments {
-  double half_angle =
-      0;  ///< α_v, half-angle of the cone, rad, in [0, π/2]: the angle of cone_cosine(A) (occlusion_forms.h)
+  /// α_v, half-angle of the cone, rad, in [0, π/2]; its cosine is cone_cosine(A) (occlusion_forms.h).
+  double half_angle = 0;
   double apart = 0;  ///< β, between the cone's axis (the bent normal) and the mirrored view, rad, in [0, π]
   double roughness = 0.13;
   double view_angle = 0;  ///< θ_o, between normal and view, rad, in [0, π/2]
@@ -94,9 +94,9 @@ struct TableError {
   double largest = 0;
 };
 
-/// Compares look_up with eq. 30 at `count` random arguments. A and √r are evenly distributed, θ_o is so up to
-/// 85°, and β so as far as the bent normal is above the surface. Throws Cancelled when the watch stops the
-/// work.
+/// Compares look_up with eq. 30 at `count` random arguments. A and √r are drawn evenly from [0, 1], θ_o
+/// evenly up to 85°, and β evenly from 0 to where the bent normal meets the surface. Throws Cancelled when
+/// the watch stops the work.
 TableError judge_specular_table(const SpecularTable& table, int count, std::uint64_t seed,
                                 const Watch& watch = {});
 

@@ -30,8 +30,8 @@ struct Heightmap {
   double base = 0;
   Spacing spacing;
   Boundary boundary = Boundary::tile;
-  double curvature =
-      0;  ///< κ ≥ 0, per world unit: heights were lowered by κ r² (curve_heights); 0 where they were not
+  /// κ, per world unit: heights were lowered by κ r² (curve_heights); 0 where they were not.
+  double curvature = 0;
   /// Row and column where r is 0, counted in samples from the first one; meaningless where κ is 0.
   double curved_about_row = 0;
   double curved_about_column = 0;
@@ -77,13 +77,13 @@ struct Gradient {
 Gradient level_gradient(const Heightmap& map, int row, int column);
 
 /// Height steps across the map's borders, compared with steps inside. In a map that tiles they are alike.
-/// Every step is a root mean square over a pair of neighbouring columns (x) or rows (y), in world units; NaN
-/// where there is nothing to compare.
+/// Every step is the root mean square of the height differences between columns (x) or rows (y), in world
+/// units; NaN where there is nothing to compare.
 struct EdgeSteps {
-  double across_x = 0;  ///< of h(row, 0) − h(row, last)
-  double inside_x = 0;  ///< over all pairs of neighbouring columns
-  /// Largest step of a single pair of columns that is within an eighth of the map, or four columns, of either
-  /// border.
+  double across_x = 0;  ///< between the last column and the first
+  double inside_x = 0;  ///< between neighbouring columns, all pairs together
+  /// Largest step between a single pair of neighbouring columns near a border: within an eighth of the
+  /// columns, and at least four.
   double beside_x = 0;
   double across_y = 0;
   double inside_y = 0;
