@@ -62,12 +62,12 @@ struct SeenMoments {
 SeenSkyViewFactor<double> tune_deep_seen(const SeenMoments& moments, const SeenConstants& constants = {});
 
 /// Returns s = Σ A(1 − A)/n_z ÷ Σ (1 − A)/n_z over the map, in [0, 1]. It is the mean of n, weighted by (1 −
-/// A)/n_z, that reciprocity requires, since 1/n_z F is symmetric. Only the sky view factor and the normals
+/// A)/n_z, that reciprocity requires, since (1/n_z) F is symmetric. Only the sky view factor and the normals
 /// are needed. 1 where nothing is occluded. Texels that are NaN are left out. Throws Error for maps of
 /// different sizes.
 SeenSkyViewFactor<double> expected_seen(const Map& sky_view_factor, const Surface& surface);
 
-/// Returns the mean that expected_seen predicts, as measured: Σ E₁/n_z ÷ Σ (1 − A)/n_z. `first_bounce` is
+/// Returns the mean that expected_seen predicts, as measured: Σ E₁/(π n_z) ÷ Σ (1 − A)/n_z. `first_bounce` is
 /// E₁/π at ρ = 1 per texel, 0 where the sample is missing. Its difference from expected_seen shows how well
 /// the samples resolve the surface. Returns 1 where nothing is occluded, and throws Error, as expected_seen
 /// does.

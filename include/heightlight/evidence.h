@@ -104,7 +104,8 @@ struct Evidence {
   /// Of horizon walks: gathers that follow each other in finding the totals, at most over all totals.
   int gathers = 0;
 
-  // What it errs by.
+  // Its errors.
+
   /// RMSE of A, by the most reliable check that was made; absent where A was not checked or there is no
   /// receiver.
   std::optional<double> sky_rmse;

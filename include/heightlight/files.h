@@ -26,12 +26,12 @@ struct LoadOptions {
   std::optional<double> relief = {};
   std::optional<double> relief_share = {};  ///< > 0; the relief divided by the width. Excludes `relief`
   std::optional<double> width = {};  ///< > 0; extent of the columns, world units. Default 1. Excludes `texel`
-  /// Spacing, world units. The default is the spacing that the file gives, in the unit of its heights; else
-  /// width / columns.
+  /// Spacing, world units. The default is the spacing that the file gives, in the unit of its heights
+  /// (degrees become metres); else width / columns.
   std::optional<Spacing> texel = {};
   std::optional<Boundary> boundary = {};  ///< default `open` where the file gives a spacing, else `tile`
-  std::optional<double> no_data =
-      {};  ///< value, as stored in the file, that means "missing", beside the one that the file declares
+  /// Value, as stored in the file, that means "missing", beside the one that the file declares.
+  std::optional<double> no_data = {};
   std::optional<std::string> part = {};  ///< part of an EXR of several: its name (any case) or 0-based index
   /// Channel: its name (any case) or 0-based index. The default is the only channel, or grey where all
   /// channels but alpha agree at every texel.
@@ -45,8 +45,8 @@ struct LoadOptions {
   /// Height of a stored 0, in world units. The stored values are then heights, with a `scale` of 1 unless it
   /// is given. Excludes `relief` and `relief_share`.
   std::optional<double> offset = {};
-  /// Neither the spacing nor the width is given, so the file must give a spacing in degrees, which becomes
-  /// metres.
+  /// The file must give a spacing in degrees, which becomes metres. Without effect where `texel` or `width`
+  /// is given.
   bool degrees_in_metres = false;
   int shrink = 1;  ///< the mean of each shrink × shrink samples takes their place; must divide both sides
   bool invert = false;  ///< the file holds depths: the highest value is the lowest place
@@ -67,7 +67,8 @@ struct SourceFacts {
   /// The samples were levels without a unit, and were mapped to [0, relief].
   bool is_stretched = false;
   bool is_relief_guessed = false;  ///< they were mapped to a relief that nobody gave: a tenth of the width
-  bool white_is_zero = false;      ///< the file is a TIFF that says so: larger numbers are darker, and lower
+  /// The file is a TIFF that says that larger numbers are darker; they are taken for lower ground.
+  bool white_is_zero = false;
   int channels = 0;
   std::string channel;  ///< the channel that was read: "Y", "R", "grey (R = G = B)"
   /// Number of distinct values among the samples present; kMostLevels + 1 means more than kMostLevels.
@@ -93,7 +94,7 @@ struct Warning {
 
 struct LoadedHeightmap {
   Heightmap map;
-  /// absent where the file gives no place, as pictures and bare arrays do not
+  /// Absent where the file gives no place, as ordinary pictures and bare arrays do not.
   std::optional<Georeference> place = {};
   SourceFacts facts;
   std::vector<Warning> warnings;  ///< the most important first
@@ -114,10 +115,10 @@ using WorkBytes = std::function<std::uint64_t(int columns, int rows)>;
 /// Integer samples are levels, stretched so that the lowest present becomes 0 and the highest `relief`. These
 /// samples are heights, and are stretched in that way only where a relief is given: text and floating-point
 /// samples; SRTM tiles; all samples read with a `scale` or an `offset`; with a `texel`, signed integers of at
-/// least 16 bits in arrays, raw files and TIFFs; integers of a TIFF that has a pixel scale; with a `texel`,
-/// integers of at least 16 bits of a TIFF that has a no-data value. A TIFF whose GDAL metadata give a scale
-/// and an offset has heights, too, unless the options give others. Heights that were stretched have base 0. A
-/// map whose samples are all equal stays level.
+/// least 16 bits in arrays and TIFFs; integers of a TIFF that has a pixel scale; with a `texel`, integers of
+/// at least 16 bits of a TIFF that has a no-data value. A TIFF whose GDAL metadata give a scale and an offset
+/// has heights, too, unless the options give others. Heights that were stretched have base 0. A map whose
+/// samples are all equal stays level.
 ///
 /// Samples go missing if they are equal to `no_data` or to the value that the file declares (each rounded to
 /// the stored type: float, half or integer), NaN, ±infinity, or transparent where no `channel` is given. A
@@ -134,9 +135,11 @@ using WorkBytes = std::function<std::uint64_t(int columns, int rows)>;
 /// side; nothing but missing samples; heights beyond float, or slopes beyond 1e12; several parts without
 /// `part`; channels that differ without `channel`; raw samples without `size`; a stored scale that is not
 /// positive. Without `texel`, also: a GeoTIFF whose place is rotated, odd or contradicts itself
-/// (georeference.h); lengths in feet beside heights of an unknown unit; degrees of a body other than the
-/// Earth. Throws MemoryError naming `path`. Throws UsageError as check_load_options, shrink and curve_heights
-/// do, for a `part` or `channel` that the file does not have, and for a `size` where the file gives its own.
+/// (georeference.h); lengths in another unit than the metre beside heights of an unknown unit; cells in
+/// degrees of a body other than the Earth, or of an unknown place; `degrees_in_metres` for a file without
+/// degrees. Throws MemoryError naming `path`. Throws UsageError as check_load_options, shrink and
+/// curve_heights do, for a `part` or `channel` that the file does not have, and for a `size` where the file
+/// gives its own.
 LoadedHeightmap load_heightmap(const std::filesystem::path& path, const LoadOptions& options,
                                std::uint64_t memory_limit, const WorkBytes& work = {});
 
@@ -148,8 +151,8 @@ SkyLight load_sky_light(const std::filesystem::path& path, std::uint64_t memory)
 
 /// Writes form factors as a sparse matrix that scipy.sparse.load_npz reads, in compressed rows (`indptr`,
 /// `indices`, `data`). Row i holds F_ij, what texel i = row × width + column sees of each texel j. The file
-/// also holds `sky_view_factor`, which makes each row sum to 1, and `map_shape` (rows, columns). The rows of
-/// missing samples are empty, and their sky view factor is 0. Throws OutputError naming the file.
+/// also holds `sky_view_factor`, whose entry i and row i sum to 1, and `map_shape` (rows, columns). The rows
+/// of missing samples are empty, and their sky view factor is 0. Throws OutputError naming the file.
 void write_form_factors(const std::filesystem::path& path, const FormFactors& form_factors);
 
 /// The first line of `curves.csv`: the names of its columns.
@@ -176,8 +179,8 @@ struct RunCurves {
 };
 
 /// Reads `dataset.csv`, the curves of many runs below each other, or `curves.csv`. Throws Error as
-/// read_curves_csv does, but not for several runs, and for a run that comes again after another. Throws
-/// MemoryError naming the file where its curves may take more than `memory_limit` bytes.
+/// read_curves_csv does (several runs are allowed here), and for a run that comes again after another. Throws
+/// MemoryError naming the file where the curves of so large a file may take more than `memory_limit` bytes.
 std::vector<RunCurves> read_run_curves(const std::filesystem::path& path, std::uint64_t memory_limit);
 
 }  // namespace heightlight
