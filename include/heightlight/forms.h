@@ -2,84 +2,86 @@
 
 #include <cmath>
 
-// Closed forms of the total irradiance E/π (unoccluded = 1) under a sky of radiance 1, after all bounces on a
-// surface of albedo ρ everywhere, from what a texel is known to be. This file needs C++17 and <cmath> and
-// nothing else: an engine may take it alone. Pure functions, of float or double; where albedo is coloured,
-// call them once per channel. Every AO is a type of its own, so that a form never gets the wrong kind:
-// AmbientOcclusion{0.5} and SkyViewFactor{0.5} do not convert into each other, nor from numbers.
+// Closed forms of the total irradiance E/π (unoccluded = 1) after all bounces, under a sky of radiance 1 and
+// at the same albedo ρ everywhere, from the AO of a texel and what else is known of it. This file needs C++17
+// and <cmath> and nothing else, so that an engine may take it alone. All functions are pure and take float or
+// double. For a coloured albedo, call them once per channel. Every AO is a type of its own, so that a form
+// never gets the wrong kind: AmbientOcclusion{0.5} and SkyViewFactor{0.5} do not convert into each other, nor
+// from numbers.
 //
-// Arguments lie in [0, 1]; AO that rounding or measurement put outside is clamped to it. NaN gives NaN, and
-// so does a form outside its domain.
+// Arguments lie in [0, 1]. An AO that rounding or measurement put outside is clamped. A NaN argument gives
+// NaN. A form gives NaN outside its domain, too.
 //
-// Each form is stated here and nowhere else: its function, its constants, and beside them its name, formula
-// and source in words and its text as a shader function. Evaluation, fits, plots and emitted shaders take
-// them from here. Shader text is in the part of GLSL that is printed in every shading language (shaders.h
-// tells it); $name stands for the constant of that name.
+// Each form is stated here and nowhere else: its function, its constants, and beside them its name, its
+// formula and source in words, and its text as a shader function. Evaluation, fits, plots and emitted shaders
+// take them from here. Shader text is written in the part of GLSL that can be printed in every shading
+// language (see shaders.h); $name stands for the constant of that name.
 
 namespace heightlight {
 
-/// What is said of a form, and what a shader is told.
+/// The words about a form, and its shader text.
 struct FormText {
-  const char* name;     ///< as in tables, snake_case
+  const char* name;     ///< as it stands in tables, snake_case
   const char* formula;  ///< plain ASCII
   const char* source;   ///< paper and equation, or "here"
-  const char* shader;   ///< functions, the last of which is the form
+  const char* shader;   ///< GLSL functions, the last of which is the form; empty where it has none
 };
 
-/// A constant of a form that fits may change: its name in shaders, and where it is kept.
+/// A constant of a form that a fit may change: its name in shaders, and the member that holds it.
 template <class Constants>
 struct FormConstant {
   const char* name;
   double Constants::*value;
 };
 
-/// α, the plain share of the hemisphere's solid angle that sees the sky: the notes' AO (Patapom).
+/// α, the share of the hemisphere's solid angle that sees the sky, in [0, 1]: the AO of the notes (Patapom).
 template <class Real>
 struct AmbientOcclusion {
   constexpr explicit AmbientOcclusion(Real share) : value(share) {}
   Real value;
 };
 
-/// A = E₀/π, the cosine-weighted share: the AO of Jimenez et al. 2016 and Umenhoffer et al. 2009.
+/// A = E₀/π, the cosine-weighted share of the hemisphere that sees the sky, in [0, 1]: the AO of Jimenez et
+/// al. 2016 and Umenhoffer et al. 2009.
 template <class Real>
 struct SkyViewFactor {
   constexpr explicit SkyViewFactor(Real share) : value(share) {}
   Real value;
 };
 
-/// n, the mean sky view factor of what a texel sees of the surface, weighted by form factor. Where it is
-/// measured: E₁/π ÷ (1 − A) at ρ = 1.
+/// n, the mean sky view factor of what a texel sees of the surface, weighted by form factors, in [0, 1].
+/// Measured on a simulation it is E₁/π ÷ (1 − A) at ρ = 1.
 template <class Real>
 struct SeenSkyViewFactor {
   constexpr explicit SeenSkyViewFactor(Real share) : value(share) {}
   Real value;
 };
 
-/// Shares as measured stray out of [0, 1] by rounding.
+/// Clamps a share to [0, 1], which measured shares leave by rounding. NaN stays NaN.
 template <class Real>
 constexpr Real clamp_share(Real share) {
   return share < Real{0} ? Real{0} : Real{1} < share ? Real{1} : share;
 }
 
-/// The same in shaders.
+/// clamp_share as a shader function.
 inline constexpr const char* kShareShader = R"(float heightlight_share(float x) {
   return min(max(x, 0.0), 1.0);
 }
 )";
 
-// The direct irradiance, taken for the whole of it
+// The direct irradiance, taken for the total
 // ----------------------------------------------------------------------
 
 inline constexpr FormText kDirectText{"direct", "A", "AO x pi", ""};
 inline constexpr FormText kDirectAlphaText{"direct_alpha", "alpha", "Patapom, eq. 4", ""};
 
-/// "AO × π": E/π = A, at any ρ. Exact at ρ = 0.
+/// "AO × π": returns E/π = A at any ρ, as if there were no bounces. Exact at ρ = 0.
 template <class Real>
 constexpr Real direct_irradiance(SkyViewFactor<Real> sky) {
   return clamp_share(sky.value);
 }
 
-/// The same with the other AO: E/π = α (Patapom, eq. 4). Not even exact at ρ = 0.
+/// "AO × π" with α in place of A: returns E/π = α at any ρ (Patapom, eq. 4). Not exact even at ρ = 0.
 template <class Real>
 constexpr Real direct_irradiance(AmbientOcclusion<Real> occlusion) {
   return clamp_share(occlusion.value);
@@ -88,7 +90,7 @@ constexpr Real direct_irradiance(AmbientOcclusion<Real> occlusion) {
 // The notes' F₀, F₁ and τ (Patapom)
 // -------------------------------------------------------------------------------
 
-/// Constants of the notes' form (Patapom, eqs. 7 and 11); as published unless fitted anew.
+/// Constants of the notes' form (Patapom, eqs. 7 and 11). The defaults are those published.
 struct NotesConstants {
   double direct_gain = 0.5;                ///< F₀(α) = α (1 + gain (1 − α)^power)
   double direct_power = 0.75;              ///< below 1, F₀ exceeds 1 near α = 1 whatever the gain
@@ -115,8 +117,8 @@ inline constexpr FormText kNotesText{"notes", "F0 + rho F1/(1 - rho tau)", "Pata
 }
 )"};
 
-/// What the notes' form ends with, whatever its constants: F₀ + ρ F₁/(1 − ρτ), as sum_bounces_guarded
-/// sums it.
+/// The last step of the notes' form, whatever its constants: F₀ + ρ F₁/(1 − ρτ), summed as
+/// sum_bounces_guarded does.
 inline constexpr const char* kBounceSumShader =
     R"(float heightlight_bounce_sum(float direct, float first, float albedo) {
   float missing = 1.0 - direct;
@@ -127,7 +129,8 @@ inline constexpr const char* kBounceSumShader =
 }
 )";
 
-/// F₀, Patapom, eq. 7: E₀/π as a function of α. As published it exceeds 1, by up to 0.0062, where α > 0.9493.
+/// Returns F₀: E₀/π as a function of α (Patapom, eq. 7). With the published constants it exceeds 1, by up to
+/// 0.0062, where α > 0.9493.
 template <class Real>
 Real notes_direct(AmbientOcclusion<Real> occlusion, const NotesConstants& constants = {}) {
   const Real a = clamp_share(occlusion.value);
@@ -135,7 +138,7 @@ Real notes_direct(AmbientOcclusion<Real> occlusion, const NotesConstants& consta
                       std::pow(1 - a, static_cast<Real>(constants.direct_power)));
 }
 
-/// F₁, Patapom, eq. 11: E₁/π at ρ = 1 as a function of α.
+/// Returns F₁: E₁/π at ρ = 1 as a function of α (Patapom, eq. 11).
 template <class Real>
 Real notes_first_bounce(AmbientOcclusion<Real> occlusion, const NotesConstants& constants = {}) {
   const Real a = clamp_share(occlusion.value);
@@ -143,8 +146,9 @@ Real notes_first_bounce(AmbientOcclusion<Real> occlusion, const NotesConstants& 
          std::exp(-static_cast<Real>(constants.first_decay) * std::sqrt(std::sqrt(a)));
 }
 
-/// τ, Patapom, eq. 9: the ratio of each bounce to the one before it, 1 − F₁/(1 − F₀). Negative for α > 0.764
-/// as published. NaN where F₀ ≥ 1, which no geometric series can bring to a sum of 1.
+/// Returns τ = 1 − F₁/(1 − F₀), the ratio of each bounce to the one before it (Patapom, eq. 9). With the
+/// published constants it is negative for α > 0.764. NaN where F₀ ≥ 1, since no geometric series then sums to
+/// 1.
 template <class Real>
 Real notes_ratio(AmbientOcclusion<Real> occlusion, const NotesConstants& constants = {}) {
   const Real missing = 1 - notes_direct(occlusion, constants);
@@ -152,10 +156,11 @@ Real notes_ratio(AmbientOcclusion<Real> occlusion, const NotesConstants& constan
   return 1 - notes_first_bounce(occlusion, constants) / missing;
 }
 
-/// Patapom, eqs. 10 and 12, from F₀, F₁ and ρ: F₀ + ρ F₁/(1 − ρτ). With eq. 9 for τ that is
+/// Returns the sum of all bounces, F₀ + ρ F₁/(1 − ρτ) (Patapom, eqs. 10 and 12), from F₀, F₁ and ρ. With eq.
+/// 9 for τ it is
 ///     F₀ + ρ F₁ (1 − F₀)/((1 − ρ)(1 − F₀) + ρ F₁),
-/// which loses no digits where F₀ comes near 1. In its domain it lies in [0, 1], rises with ρ and is 1 at ρ =
-/// 1. NaN outside: where F₀ ≥ 1, and where no bounce brings anything at ρ = 1 (ρτ = 1).
+/// which loses no digits where F₀ comes near 1. Within its domain it lies in [0, 1], rises with ρ and is 1 at
+/// ρ = 1. NaN outside: where F₀ ≥ 1, and where no bounce brings anything at ρ = 1 (ρτ = 1).
 template <class Real>
 constexpr Real sum_bounces(Real direct, Real first, Real albedo) {
   const Real missing = 1 - direct;
@@ -163,25 +168,26 @@ constexpr Real sum_bounces(Real direct, Real first, Real albedo) {
   const Real brought = albedo * first;
   const Real rest = (1 - albedo) * missing + brought;
   if (rest <= 0) return static_cast<Real>(NAN);
-  return direct + missing * (brought / rest);  // in this order it is never above 1
+  return direct + missing * (brought / rest);  // in this order the sum is never above 1
 }
 
-/// The notes' total: sum_bounces of their F₀ and F₁. Outside its domain, as published: α > 0.9493, α = 1, and
-/// α = 0 at ρ = 1.
+/// Returns E/π of the notes' form: sum_bounces of notes_direct and notes_first_bounce. With the published
+/// constants it is NaN for α > 0.9493 (α = 1 included), and for α = 0 at ρ = 1.
 template <class Real>
 Real notes_total(AmbientOcclusion<Real> occlusion, Real albedo, const NotesConstants& constants = {}) {
   return sum_bounces(notes_direct(occlusion, constants), notes_first_bounce(occlusion, constants), albedo);
 }
 
-/// sum_bounces with an answer everywhere, as a renderer needs it: 1 where F₀ ≥ 1 (nearly open, and full
-/// already) and where ρτ = 1 (at ρ = 1 all totals are 1). NaN of NaN only.
+/// As sum_bounces, but with a value everywhere, as a renderer needs it: 1 where F₀ ≥ 1 (nearly open, and
+/// already full) and where ρτ = 1 (at ρ = 1 all totals are 1). NaN only if an argument is NaN.
 template <class Real>
 Real sum_bounces_guarded(Real direct, Real first, Real albedo) {
   const Real total = sum_bounces(direct, first, albedo);
   return std::isnan(total) && !std::isnan(direct + first + albedo) ? Real{1} : total;
 }
 
-/// notes_total, likewise.
+/// As notes_total, but summed by sum_bounces_guarded: 1 outside the form's domain, and NaN only if an
+/// argument is NaN.
 template <class Real>
 Real notes_total_guarded(AmbientOcclusion<Real> occlusion, Real albedo,
                          const NotesConstants& constants = {}) {
@@ -203,8 +209,8 @@ inline constexpr FormText kUniformNeighbourhoodText{
 }
 )"};
 
-/// Jimenez et al. 2016, eq. 12: A/(1 − ρ(1 − A)), from taking what is seen to be as bright as the place that
-/// sees it. At A = 0, ρ = 1, where it is 0/0: 1, as along all of ρ = 1.
+/// Returns E/π = A/(1 − ρ(1 − A)) (Jimenez et al. 2016, eq. 12). The form assumes that what a place sees is
+/// as bright as the place itself. At A = 0, ρ = 1, where it is 0/0, it is 1, as it is along all of ρ = 1.
 template <class Real>
 constexpr Real uniform_neighbourhood(SkyViewFactor<Real> sky, Real albedo) {
   const Real a = clamp_share(sky.value);
@@ -212,8 +218,8 @@ constexpr Real uniform_neighbourhood(SkyViewFactor<Real> sky, Real albedo) {
   return rest <= 0 ? Real{1} : a / rest;
 }
 
-/// Jimenez' cubic a A³ − b A² + c A with coefficients linear in ρ (Jimenez et al. 2016, eq. 33); as published
-/// unless fitted anew. He fitted them to three bounces at ρ = 0.1 … 0.9.
+/// Coefficients of Jimenez' cubic a A³ − b A² + c A, each linear in ρ (Jimenez et al. 2016, eq. 33). The
+/// defaults are those published, which were fitted to three bounces at ρ = 0.1 … 0.9.
 struct CubicConstants {
   double a_slope = 2.0404, a_offset = -0.3324;
   double b_slope = 4.7951, b_offset = -0.6417;
@@ -235,7 +241,7 @@ inline constexpr FormText kCubicText{"cubic", "a A^3 - b A^2 + c A", "Jimenez et
 }
 )"};
 
-/// The polynomial of eq. 33 itself, which may leave [0, 1].
+/// Returns the polynomial of eq. 33 without clamping: it may leave [0, 1].
 template <class Real>
 constexpr Real cubic_polynomial(SkyViewFactor<Real> sky, Real albedo, const CubicConstants& constants = {}) {
   const Real a3 = static_cast<Real>(constants.a_slope) * albedo + static_cast<Real>(constants.a_offset);
@@ -245,8 +251,9 @@ constexpr Real cubic_polynomial(SkyViewFactor<Real> sky, Real albedo, const Cubi
   return ((a3 * a - a2) * a + a1) * a;
 }
 
-/// Jimenez et al. 2016, eq. 33. As published it is below A at ρ = 0, by up to 0.044, and not 1 at ρ = 1 (0.90
-/// at A = 0.5); it exceeds 1 by up to 10⁻⁴ near A = 1, which is clamped.
+/// Returns E/π by the cubic of Jimenez et al. 2016, eq. 33, clamped to [0, 1]. With the published constants
+/// it is below A at ρ = 0, by up to 0.044, and is not 1 at ρ = 1 (0.90 at A = 0.5). Without the clamp it
+/// would exceed 1 by up to 10⁻⁴ near A = 1.
 template <class Real>
 constexpr Real cubic_total(SkyViewFactor<Real> sky, Real albedo, const CubicConstants& constants = {}) {
   return clamp_share(cubic_polynomial(sky, albedo, constants));
@@ -255,18 +262,19 @@ constexpr Real cubic_total(SkyViewFactor<Real> sky, Real albedo, const CubicCons
 // Ambient transfer (Umenhoffer et al. 2009)
 // --------------------------------------------------------------------------------------
 
-/// μ of Umenhoffer et al. 2009, section 3: how far a surface at `distance` counts as open, √(d/R) up to the
-/// radius R > 0, 1 beyond.
+/// Returns μ of Umenhoffer et al. 2009, section 3: the openness, in [0, 1], of a surface at `distance` ≥ 0.
+/// It is √(d/R) up to the radius R > 0, and 1 beyond. Both lengths are in the same unit.
 template <class Real>
 Real fuzzy_openness(Real distance, Real radius) {
   return distance >= radius ? Real{1} : std::sqrt(distance / radius);
 }
 
-/// How fast the exponential μ rises: σ R, the number of mean free paths up to the radius.
+/// Rate of the exponential μ: σ R, the number of mean free paths up to the radius.
 inline constexpr double kOpennessRate = 4;
 
-/// The exponential μ of Umenhoffer et al. 2009, section 2, 1 − exp(−σ d), which its authors leave since it
-/// never ends: here σ is kOpennessRate/R, and it is scaled to be 1 at the radius R > 0 and beyond.
+/// Returns the exponential μ of Umenhoffer et al. 2009, section 2: 1 − exp(−σ d). Its authors abandon it
+/// because it has no end. Here σ is kOpennessRate/R, and μ is scaled to be 1 at the radius R > 0 and beyond.
+/// The arguments are those of fuzzy_openness.
 template <class Real>
 Real exponential_openness(Real distance, Real radius) {
   if (distance >= radius) return Real{1};
@@ -274,17 +282,17 @@ Real exponential_openness(Real distance, Real radius) {
   return std::expm1(-kRate * distance / radius) / std::expm1(-kRate);
 }
 
-/// What a texel sees in one direction, for the ambient transfer.
+/// What a texel sees in one direction, as ambient_transfer needs it.
 template <class Real>
 struct Occluder {
-  Real form_factor;  ///< share of the cosine-weighted hemisphere
-  Real openness;     ///< μ in [0, 1]; 0 for a surface that hides the sky altogether
-  Real albedo;       ///< where it is hit
+  Real form_factor;  ///< form factor: share of the cosine-weighted hemisphere that it covers
+  Real openness;     ///< μ in [0, 1]; 0 for a surface that hides the sky completely
+  Real albedo;       ///< albedo of the place that is seen, in [0, 1]
 };
 
-/// Umenhoffer et al. 2009, eqs. 5 and 6: O/(1 − Σ F (1 − μ) ρ), with the obscurance O = A + Σ F μ. With μ = 0
-/// and one albedo it is uniform_neighbourhood. `occluders`: any range of Occluder<Real> whose form factors
-/// sum to 1 − A. 1 where it is 0/0, as there.
+/// Returns E/π = O/(1 − Σ F (1 − μ) ρ) with the obscurance O = A + Σ F μ (Umenhoffer et al. 2009, eqs. 5 and
+/// 6), in [0, 1]. `occluders` is any range of Occluder<Real> whose form factors sum to 1 − A. With μ = 0 and
+/// one albedo the form is uniform_neighbourhood. Where it is 0/0, it is 1, as uniform_neighbourhood is.
 template <class Real, class Range>
 Real ambient_transfer(SkyViewFactor<Real> sky, const Range& occluders) {
   Real obscurance = sky.value;
@@ -309,23 +317,23 @@ inline constexpr FormText kBouncedText{"seen_stored", "A + rho (1 - A) n/(1 - rh
 }
 )"};
 
-/// The same for a texture whose two channels are A and n, as `ao-n` maps hold them, at an albedo of three
-/// channels.
+/// heightlight_bounced for a texture whose two channels are A and n, as `ao-n` maps hold them, at an albedo
+/// of three channels.
 inline constexpr const char* kStoredPairShader = R"(vec3 multi_bounce(vec2 a_n, vec3 albedo) {
   return vec3(heightlight_bounced(a_n.x, a_n.y, albedo.x), heightlight_bounced(a_n.x, a_n.y, albedo.y),
               heightlight_bounced(a_n.x, a_n.y, albedo.z));
 }
 )";
 
-/// What such a pair of channels means, for whoever reads them.
+/// The meaning of such a pair of channels, in words for its readers.
 inline constexpr const char* kStoredPairMeaning =
     "A = (1/pi) int V cos(theta) dw, and n, solved for at albedo 0.7: E/pi at any albedo r is "
     "A + r (1 - A) n / (1 - r (1 - n))";
 
-/// G(A, n, ρ) = A + ρ(1 − A) n/(1 − ρ(1 − n)): the first bounce brings ρ(1 − A)n, and every later one ρ(1 −
-/// n) of the one before, the ratio that lets all of them sum to 1 at ρ = 1. Exact at ρ = 0 and ρ = 1, without
-/// poles, in [0, 1], rising with ρ and with n. At n = 0, ρ = 1, where it is 0/0: 1, as along all of ρ = 1.
-/// With n = A it is uniform_neighbourhood.
+/// Returns E/π = G(A, n, ρ) = A + ρ(1 − A) n/(1 − ρ(1 − n)). The first bounce brings ρ(1 − A)n, and every
+/// later one ρ(1 − n) of the one before, which is the ratio that lets all of them sum to 1 at ρ = 1. The form
+/// is exact at ρ = 0 and ρ = 1, has no poles, lies in [0, 1], and rises with ρ and with n. At n = 0, ρ = 1,
+/// where it is 0/0, it is 1, as it is along all of ρ = 1. With n = A it is uniform_neighbourhood.
 template <class Real>
 constexpr Real bounced_total(SkyViewFactor<Real> sky, SeenSkyViewFactor<Real> seen, Real albedo) {
   const Real a = clamp_share(sky.value);
@@ -334,8 +342,9 @@ constexpr Real bounced_total(SkyViewFactor<Real> sky, SeenSkyViewFactor<Real> se
   return rest <= 0 ? Real{1} : a + (1 - a) * (albedo * n / rest);
 }
 
-/// The n with which bounced_total gives `total` at `albedo`, 0 < albedo < 1: with q = (G − A)/(1 − A), n =
-/// q(1 − ρ)/(ρ(1 − q)), in [0, 1]. Where nothing is seen (A = 1) any n does; it is 1 there.
+/// Returns the n, in [0, 1], with which bounced_total gives `total` (E/π) at `albedo`, 0 < albedo < 1. With q
+/// = (G − A)/(1 − A) it is n = q(1 − ρ)/(ρ(1 − q)), clamped. Where nothing is seen (A = 1) any n gives the
+/// total; the result is 1 there.
 template <class Real>
 constexpr SeenSkyViewFactor<Real> seen_from_total(SkyViewFactor<Real> sky, Real total, Real albedo) {
   const Real a = clamp_share(sky.value);
@@ -344,22 +353,22 @@ constexpr SeenSkyViewFactor<Real> seen_from_total(SkyViewFactor<Real> sky, Real 
   return SeenSkyViewFactor<Real>(a >= 1 || brought >= missing ? Real{1} : clamp_share(brought / missing));
 }
 
-/// The albedo at which an n that is stored as a second channel is best solved for: there its error vanishes,
-/// and is least from 0.3 to 0.9 all together.
+/// The albedo at which an n that is stored as a second channel is best solved for: the error of bounced_total
+/// then vanishes at this albedo, and is least over all albedos from 0.3 to 0.9 together.
 inline constexpr double kSeenAlbedo = 0.7;
 
-/// What a total may be.
+/// The interval [low, high] that E/π lies in.
 template <class Real>
 struct TotalBounds {
   Real low;
   Real high;
 };
 
-/// Bounds of the total at `albedo` that hold on any surface, from A and the total at another albedo ρ₀, 0 <
-/// ρ₀ < 1. What bounces bring, f(ρ) = Σ_{b ≥ 1} E_b ρ^b, has no negative E_b and f(1) = 1 − A. With q =
-/// f(ρ₀)/f(1), the mean of ρ₀^b weighted by E_b, Jensen's inequality for ρ^b = (ρ₀^b)^γ, γ = ln ρ/ln ρ₀,
-/// gives q^γ on one side; on the other the chord of that power from 0 to ρ₀ gives q ρ/ρ₀. bounced_total lies
-/// between them too.
+/// Returns bounds of E/π at `albedo` that hold on any surface, from A and `total`, which is E/π at another
+/// albedo ρ₀ = `total_albedo`, 0 < ρ₀ < 1. Derivation: bounces bring f(ρ) = Σ_{b ≥ 1} E_b ρ^b, where no E_b
+/// is negative and f(1) = 1 − A. Let q = f(ρ₀)/f(1), which is the mean of ρ₀^b weighted by E_b. One bound is
+/// q^γ, by Jensen's inequality for ρ^b = (ρ₀^b)^γ with γ = ln ρ/ln ρ₀. The other is q ρ/ρ₀, from the chord of
+/// that power from 0 to ρ₀. bounced_total lies between the bounds, too.
 template <class Real>
 TotalBounds<Real> bound_total(SkyViewFactor<Real> sky, Real total, Real total_albedo, Real albedo) {
   const Real a = clamp_share(sky.value);
@@ -376,12 +385,14 @@ TotalBounds<Real> bound_total(SkyViewFactor<Real> sky, Real total, Real total_al
 // Guesses of n
 // -----------------------------------------------------------------------------------------------------
 
-/// Guesses of n, as fitted to the maps of plots/make-models. Each keeps n in [0, 1].
+/// Constants of the functions that guess n, as fitted to the maps of plots/make-models. Each guess is clamped
+/// to [0, 1].
 struct SeenConstants {
-  double offset = 0.07, slope = 0.82;                                  ///< from A alone
-  double map_offset = 0.012, map_slope = 0.62, map_curvature = -0.17;  ///< from A and the map's s
-  double deep_slope = 0.69, deep_bend = -0.65;                         ///< from A and the map's t
-  double blur_offset = 0.013, blur_slope = 0.32;                       ///< from A and its blur
+  double offset = 0.07, slope = 0.82;  ///< of guess_seen
+  double map_offset = 0.012, map_slope = 0.62,
+         map_curvature = -0.17;                   ///< of guess_seen_on_map
+  double deep_slope = 0.69, deep_bend = -0.65;    ///< of guess_seen_in_deep
+  double blur_offset = 0.013, blur_slope = 0.32;  ///< of guess_seen_by_blur
 };
 
 inline constexpr FormConstant<SeenConstants> kSeenConstants[] = {
@@ -401,7 +412,7 @@ inline constexpr FormText kSeenFromSkyText{"seen_from_sky", "G(A, n, rho), n = o
 }
 )"};
 
-/// n from A alone: offset + slope A.
+/// Guesses n from A alone: offset + slope A, clamped to [0, 1].
 template <class Real>
 constexpr SeenSkyViewFactor<Real> guess_seen(SkyViewFactor<Real> sky, const SeenConstants& constants = {}) {
   return SeenSkyViewFactor<Real>(clamp_share(static_cast<Real>(constants.offset) +
@@ -417,7 +428,8 @@ inline constexpr FormText kSeenFromMapText{
 }
 )"};
 
-/// n from A and one number per map, s = expected_seen(…): offset + s + slope (A − s) + curvature (A − s)².
+/// Guesses n from A and one number per map, s = expected_seen(…): offset + s + slope (A − s) + curvature (A −
+/// s)², clamped to [0, 1].
 template <class Real>
 constexpr SeenSkyViewFactor<Real> guess_seen_on_map(SkyViewFactor<Real> sky, SeenSkyViewFactor<Real> expected,
                                                     const SeenConstants& constants = {}) {
@@ -435,7 +447,7 @@ inline constexpr FormText kSeenFromDeepText{"seen_from_deep", "G(A, n, rho), n =
 }
 )"};
 
-/// n from A and t = tune_deep_seen(…), one number per map: t + (slope + bend t) A.
+/// Guesses n from A and one number per map, t = tune_deep_seen(…): t + (slope + bend t) A, clamped to [0, 1].
 template <class Real>
 constexpr SeenSkyViewFactor<Real> guess_seen_in_deep(SkyViewFactor<Real> sky, SeenSkyViewFactor<Real> deep,
                                                      const SeenConstants& constants = {}) {
@@ -445,7 +457,7 @@ constexpr SeenSkyViewFactor<Real> guess_seen_in_deep(SkyViewFactor<Real> sky, Se
                           clamp_share(sky.value)));
 }
 
-/// The blur with which n is guessed best on the maps of plots/make-models, in texels.
+/// The σ of the blur, in texels, with which guess_seen_by_blur is best on the maps of plots/make-models.
 inline constexpr double kBlurSigma = 1.5;
 
 inline constexpr FormText kSeenFromBlurText{"seen_from_blur", "G(A, n, rho), n = offset + W + slope (A - W)",
@@ -456,7 +468,8 @@ inline constexpr FormText kSeenFromBlurText{"seen_from_blur", "G(A, n, rho), n =
 }
 )"};
 
-/// n from A and its blurred neighbourhood W = blur_seen(…): offset + W + slope (A − W).
+/// Guesses n from A and the blurred sky view factor W = blur_seen(…): offset + W + slope (A − W), clamped to
+/// [0, 1].
 template <class Real>
 constexpr SeenSkyViewFactor<Real> guess_seen_by_blur(SkyViewFactor<Real> sky, SeenSkyViewFactor<Real> blurred,
                                                      const SeenConstants& constants = {}) {

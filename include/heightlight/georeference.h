@@ -10,29 +10,38 @@
 
 namespace heightlight {
 
-/// A tag of a TIFF as it stands in its directory, bytes in this machine's order.
+/// A tag of a TIFF as it stands in the file's directory, with its bytes in the byte order of this machine.
 struct GeoTag {
   std::uint16_t number = 0;
-  std::uint16_t type = 0;  ///< of its values: 2 text, with its final 0; 3 unsigned 16 bits; 12 double
+  /// Type of its values: 2 is text, with its final 0; 3 is unsigned 16 bits; 12 is double.
+  std::uint16_t type = 0;
   std::string bytes;
 
   friend bool operator==(const GeoTag&, const GeoTag&) = default;
 };
 
-/// Where a map lies on earth, as its file says it. Columns run east and rows run south along the axes of the
+/// Where a map lies on earth, as its file says. Columns run east and rows run south, along the axes of the
 /// file's coordinates.
 struct Georeference {
-  /// x and y of the outer corner of the first sample, in the file's coordinates; absent where it tells none.
+  /// x and y of the outer corner of the first sample, in the file's coordinates; absent where the file gives
+  /// none.
   std::optional<std::array<double, 2>> corner = {};
-  Spacing cell = {};                         ///< distance between samples in the file's coordinates
-  bool in_degrees = false;                   ///< these are longitudes and latitudes
-  std::optional<double> metres = {};         ///< length of their unit, where they are lengths of a known unit
-  std::optional<double> height_metres = {};  ///< length of the heights' unit, where the file tells it
-  /// Of the ellipsoid that degrees are of, in metres, where the file tells it: 1737400 of the moon.
+  Spacing cell = {};        ///< distance between neighbouring samples, in the file's coordinates
+  bool in_degrees = false;  ///< the coordinates are longitudes and latitudes, in degrees
+  /// Metres per unit of the coordinates; absent for degrees, and for lengths of an unknown unit.
+  std::optional<double> metres = {};
+  /// Metres per unit of the heights; absent where the file does not give it.
+  std::optional<double> height_metres = {};
+  /// Equatorial radius in metres of the ellipsoid that degrees refer to, such as 1737400 for the moon; absent
+  /// where the file does not give it.
   std::optional<double> equator_radius = {};
-  std::string system = {};  ///< of coordinates, as the file names it: "EPSG:32631"; empty where it names none
-  std::string projection = {};    ///< text of the .prj file beside it; empty where there is none
-  std::vector<GeoTag> tags = {};  ///< what says all this in a GeoTIFF, its no-data included
+  /// Coordinate system as the file names it: "EPSG:32631"; empty where the file names none.
+  std::string system = {};
+  /// Text of the .prj file beside the map, or the well-known text among a GeoTIFF's keys; empty where there
+  /// is neither.
+  std::string projection = {};
+  /// The GeoTIFF tags that say all of this, the no-data value included.
+  std::vector<GeoTag> tags = {};
 };
 
 }  // namespace heightlight

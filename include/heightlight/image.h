@@ -15,13 +15,17 @@ struct Image {
   int height = 0;
   std::vector<T> values;
 
+  /// Makes an empty image.
   Image() = default;
+  /// Makes an image whose samples are all `value`. Both sides are ≥ 0.
   Image(int columns, int rows, T value = T{})
       : width(columns),
         height(rows),
         values(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), value) {}
 
+  /// Returns the number of samples.
   std::size_t size() const { return values.size(); }
+  /// Returns the place in `values` of the sample at a row and a column; neither is checked.
   std::size_t index(int row, int column) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column);
   }
