@@ -29,6 +29,18 @@ TEST_CASE("a shrunk map holds the means of its squares, above its lowest", "[hei
   CHECK(shrink(map, 1).base + double{shrink(map, 1).height(3, 5)} == Approx(138));
 }
 
+TEST_CASE("a curved map that is shrunk is curved about the same place", "[heightmap]") {
+  Heightmap map = make_map(12, 6, Boundary::open, [](int, int) { return 0.0; });
+  map.spacing = {1000, 2000};
+  const Heightmap curved = curve_heights(map);
+  const Heightmap found = shrink(curved, 3);
+  const Heightmap expected = curve_heights(shrink(map, 3));
+  CHECK(found.curved_about_row == Approx(expected.curved_about_row));
+  CHECK(found.curved_about_column == Approx(expected.curved_about_column));
+  CHECK(level_gradient(found, 0, 3).x == Approx(level_gradient(expected, 0, 3).x));
+  CHECK(level_gradient(found, 0, 3).y == Approx(level_gradient(expected, 0, 3).y));
+}
+
 TEST_CASE("missing samples are left out of the means, and stay where nothing else is", "[heightmap]") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const Heightmap map = make_map(4, 2, Boundary::open, [nan](int row, int column) {

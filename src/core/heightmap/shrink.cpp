@@ -37,6 +37,9 @@ Heightmap shrink(const Heightmap& map, int factor) {
   Heightmap shrunk = map;
   shrunk.spacing = {map.spacing.x * factor, map.spacing.y * factor};
   shrunk.height = Image<float>(width / factor, height / factor);
+  const auto in_squares = [&](double sample) { return (sample + 0.5) / factor - 0.5; };
+  shrunk.curved_about_row = in_squares(map.curved_about_row);
+  shrunk.curved_about_column = in_squares(map.curved_about_column);
   float lowest = std::numeric_limits<float>::infinity();
   for (int row = 0; row < shrunk.height.height; ++row) {
     for (int column = 0; column < shrunk.height.width; ++column) {
