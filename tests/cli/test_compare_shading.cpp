@@ -13,7 +13,7 @@ namespace {
 using Catch::Contains;
 
 TEST_CASE("compare --specular and --directional write their reports, tables, pictures and evidence",
-          "[cli][compare][gloss]") {
+          "[cli][slow][compare][gloss]") {
   const ScratchFolder folder;
   REQUIRE(run_command("synth brick -o map.png --size 24", folder).exit_code == 0);
   const CommandResult specular =
@@ -35,7 +35,7 @@ TEST_CASE("compare --specular and --directional write their reports, tables, pic
   CHECK_THAT(read_text(folder / "out/directional.md"), Contains("low-sun") && Contains("triple product"));
 }
 
-TEST_CASE("compare --specular and --directional refuse what they cannot use", "[cli][compare][gloss]") {
+TEST_CASE("compare --specular and --directional refuse what they cannot use", "[cli][slow][compare][gloss]") {
   const ScratchFolder folder;
   REQUIRE(run_command("synth brick -o map.png --size 16", folder).exit_code == 0);
   REQUIRE(run_command("specular-table -o table.ktx --side 4", folder).exit_code == 0);
