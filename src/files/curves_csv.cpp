@@ -22,7 +22,8 @@ void append_lines(std::string& text, const CurveBin& bin, AoKind kind) {
 }  // namespace
 
 void write_curves_csv(const std::filesystem::path& path, const std::vector<BounceCurves>& curves) {
-  std::string text = std::string(kCurvesHeader) + '\n';
+  std::string text(kCurvesHeader);
+  text += '\n';
   for (const BounceCurves& one : curves) {
     for (const CurveBin& bin : one.filled) append_lines(text, bin, one.kind);
   }
