@@ -86,7 +86,7 @@ struct Search {
     BakeOptions options;
     options.maps = {MaterialMap::ao};
     options.error = error;
-    options.radius = radius;
+    options.maximum_distance = radius;
     return find_material(surface, options).results.sky_view_factor;
   }
   double score(double relief, const std::optional<MaximumDistance>& radius) const {
