@@ -11,7 +11,8 @@ namespace {
 
 using Catch::Contains;
 
-TEST_CASE("compare --terrain writes its tables, report, plots and evidence", "[cli][compare][terrain]") {
+TEST_CASE("compare --terrain writes its tables, report, plots and evidence",
+          "[cli][compare][terrain][slow]") {
   const ScratchFolder folder;
   REQUIRE(run_command("synth fbm -o map.png --size 24", folder).exit_code == 0);
   const CommandResult run = run_command(

@@ -135,7 +135,8 @@ TEST_CASE("shards together do every run, and merged they are the tables of one p
   CHECK((read_text(folder / "shared/costs.csv") == costs));
 }
 
-TEST_CASE("a run that another process is busy with waits for it, and the others do not", "[cli][dataset]") {
+TEST_CASE("a run that another process is busy with waits for it, and the others do not",
+          "[cli][dataset][slow]") {
   const ScratchFolder folder;
   make_whole_dataset(folder);
   const std::string busy = *names_in(folder / "whole/runs").begin();
@@ -160,7 +161,7 @@ TEST_CASE("a run that another process is busy with waits for it, and the others 
   CHECK((folder_contents(folder / "out") == folder_contents(folder / "whole")));
 }
 
-TEST_CASE("a process that waits for another heeds signals", "[cli][dataset]") {
+TEST_CASE("a process that waits for another heeds signals", "[cli][dataset][slow]") {
   const ScratchFolder folder;
   make_whole_dataset(folder);
   fs::create_directories(folder / "out/runs");
@@ -175,7 +176,7 @@ TEST_CASE("a process that waits for another heeds signals", "[cli][dataset]") {
 }
 
 TEST_CASE("where a file system knows no locks, work is done twice, and the results are the same",
-          "[cli][dataset]") {
+          "[cli][dataset][slow]") {
   const ScratchFolder folder;
   make_whole_dataset(folder);
   RunningCommand one(dataset_words("out"), folder.path(), forbid_locks);
@@ -202,7 +203,7 @@ TEST_CASE("what killed processes left goes away, and hidden files of others stay
   CHECK(fs::exists(runs / ".held-0123456789ab.lock"));
 }
 
-TEST_CASE("runs in folders of their own are merged into a new one", "[cli][dataset]") {
+TEST_CASE("runs in folders of their own are merged into a new one", "[cli][dataset][slow]") {
   const ScratchFolder folder;
   make_whole_dataset(folder);
   run_dataset(folder, dataset_words("here", {"--shard", "1/2"}));

@@ -56,7 +56,7 @@ TEST_CASE("the summary records every file beside it", "[cli]") {
   }
 }
 
-TEST_CASE("fit refuses curves and bounces of different runs", "[cli][fit]") {
+TEST_CASE("fit refuses curves and bounces of different runs", "[cli][fit][slow]") {
   const ScratchFolder folder;
   REQUIRE(run_command("synth brick -o a.png --size 32 --seed 1", folder).exit_code == 0);
   REQUIRE(run_command("synth brick -o b.png --size 32 --seed 2", folder).exit_code == 0);
@@ -149,7 +149,7 @@ TEST_CASE("fit takes a dataset's table as it is, with what its runs left", "[cli
   CHECK(nlohmann::json::parse(read_text(folder / "alone/models.json"))["maps"][1]["texels"] == 0);
 }
 
-TEST_CASE("a run of a dataset counts only as it was written", "[cli][dataset]") {
+TEST_CASE("a run of a dataset counts only as it was written", "[cli][dataset][slow]") {
   const ScratchFolder folder;
   write_text(folder / "study.json",
              R"({"maps": [{"shape": "brick", "size": 16}], "options": [{"rays": 16, "bins": 20}]})");

@@ -48,7 +48,7 @@ void run(const std::string& arguments, const ScratchFolder& folder) {
 
 }  // namespace
 
-TEST_CASE("simulate, fit and dataset write reports", "[cli][report]") {
+TEST_CASE("simulate, fit and dataset write reports", "[cli][report][slow]") {
   const ScratchFolder folder;
   run("synth cobbles --size 24 -o map.exr", folder);
   run("simulate map.exr -o out --relief 0.1 --report --quiet --threads 1", folder);
@@ -85,7 +85,7 @@ TEST_CASE("simulate, fit and dataset write reports", "[cli][report]") {
   }
 }
 
-TEST_CASE("bake writes a report of each map, named as its maps are", "[cli][report]") {
+TEST_CASE("bake writes a report of each map, named as its maps are", "[cli][report][slow]") {
   const ScratchFolder folder;
   run("synth cobbles --size 24 -o a.exr", folder);
   run("synth steps --size 24 -o b.exr", folder);

@@ -80,7 +80,7 @@ TEST_CASE("simulate writes every file that the design names, and says what it di
   CHECK(summary["memory"]["peak_bytes"].get<std::uint64_t>() > 1'000'000);
 }
 
-TEST_CASE("simulate gives the same files for any number of threads", "[cli]") {
+TEST_CASE("simulate gives the same files for any number of threads", "[cli][slow]") {
   const ScratchFolder folder;
   const std::string method = GENERATE("", "--rays 48", "--error 0 --azimuths 8");
   CAPTURE(method);

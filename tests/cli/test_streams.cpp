@@ -75,7 +75,7 @@ TEST_CASE("a limit on the size of files is told, and leaves nothing", "[cli]") {
   CHECK_THAT(command.error_output(), Contains("cannot be written: File too large"));
 }
 
-TEST_CASE("SIGHUP ends it as SIGINT does, what the parent ignores does not", "[cli]") {
+TEST_CASE("SIGHUP ends it as SIGINT does, what the parent ignores does not", "[cli][slow]") {
   const ScratchFolder folder;
   write_small_map(folder / "map.png", 64);
   const auto before = entries_below(folder.path());
@@ -96,7 +96,7 @@ TEST_CASE("SIGHUP ends it as SIGINT does, what the parent ignores does not", "[c
   CHECK(fs::exists(folder / "out/summary.json"));
 }
 
-TEST_CASE("control characters of names reach neither the terminal nor reports", "[cli]") {
+TEST_CASE("control characters of names reach neither the terminal nor reports", "[cli][slow]") {
   const ScratchFolder folder;
   const std::string name = "x]]>\xff&<b>|\n\x1b[31m.png";
   write_small_map(folder / name);
