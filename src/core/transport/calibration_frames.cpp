@@ -9,11 +9,9 @@
 
 namespace heightlight {
 
-std::int64_t calibration_strips(int width, int height) {
-  constexpr double kStrips = 48;
+double calibration_scale(int width, int height) {
   constexpr double kSide = 1024;
-  const double side = std::sqrt(static_cast<double>(width) * height);
-  return static_cast<std::int64_t>(std::ceil(kStrips * std::max(1.0, side / kSide)));
+  return std::max(1.0, std::sqrt(static_cast<double>(width) * height) / kSide);
 }
 
 std::vector<TileFrame> pick_frames(const Surface& surface, const CalibrationShape& shape, std::int64_t count,

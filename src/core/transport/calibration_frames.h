@@ -24,10 +24,10 @@ struct CalibrationShape {
   int columns = 0;  ///< a divisor of TileFrame::kSide
 };
 
-/// Number of strips for a map of that size. Bricks and joints alternate, and the larger the map, the fewer of
-/// them one strip meets. The cost of calibration grows with the map's side, the cost of what it plans with
-/// its square.
-std::int64_t calibration_strips(int width, int height);
+/// Side of a map of that size over 1024, at least 1. Bricks and joints alternate, and the larger the map, the
+/// fewer of them one frame meets: larger maps want more frames. An exact walk that goes to the map's edge
+/// takes as much longer, so that frames in proportion would cost as much more as the map itself.
+double calibration_scale(int width, int height);
 
 /// Picks parts of tiles, each of the given shape or cut off at the map's edge, one from each of `count` equal
 /// parts of the map, by the seed; fewer where the map has fewer texels.

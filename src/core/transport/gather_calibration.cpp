@@ -11,7 +11,7 @@ namespace heightlight {
 namespace {
 
 constexpr CalibrationShape kBlock{.rows = kGatherBlockRows, .columns = kGatherBlock};
-constexpr std::int64_t kBlocksPerStrip = 4;  // per strip of the sky's calibration
+constexpr double kBlocks = 192;  // of a map of 1024²
 constexpr std::size_t kExactPerBlock = 4;
 
 /// Azimuths of a trial of sampling: about as many as all gathers have together.
@@ -19,7 +19,7 @@ constexpr int kTrialAzimuths = 16;
 constexpr std::size_t kTrialStep = GatherCalibration::kExactAzimuths / kTrialAzimuths;
 
 std::int64_t block_count(int width, int height) {
-  return kBlocksPerStrip * calibration_strips(width, height);
+  return static_cast<std::int64_t>(std::ceil(kBlocks * std::sqrt(calibration_scale(width, height))));
 }
 
 }  // namespace

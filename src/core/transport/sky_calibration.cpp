@@ -18,7 +18,12 @@ namespace heightlight {
 namespace {
 
 constexpr CalibrationShape kStrip{.rows = 8, .columns = 16};
+constexpr double kStrips = 48;  // of a map of 1024²
 constexpr std::size_t kExactPerStrip = 5;
+
+std::int64_t strip_count(int width, int height) {
+  return static_cast<std::int64_t>(std::ceil(kStrips * calibration_scale(width, height)));
+}
 
 /// A of an exact view from every other azimuth; NaN where the sample is missing.
 double sky_by_even_azimuths(const ExactWalker& walker, const Vector3& normal, const SliceView& view) {
@@ -35,7 +40,7 @@ double sky_by_even_azimuths(const ExactWalker& walker, const Vector3& normal, co
 
 std::uint64_t sky_calibration_bytes(int width, int height) {
   constexpr std::uint64_t kWalks = 3;  // by many azimuths, by those tried, and by every other of those tried
-  const auto strips = static_cast<std::uint64_t>(calibration_strips(width, height));
+  const auto strips = static_cast<std::uint64_t>(strip_count(width, height));
   return strips * WalkTile::kTexels * kWalks * sizeof(float);
 }
 
@@ -45,8 +50,7 @@ SkyCalibration::SkyCalibration(const Surface& surface, const HeightPyramid& pyra
       pyramid_(pyramid),
       below_(options.below),
       trial_watch_{.tell = {}, .stopped = options.watch.stopped},
-      strips_(
-          pick_frames(surface, kStrip, calibration_strips(surface.width(), surface.height()), options.seed)) {
+      strips_(pick_frames(surface, kStrip, strip_count(surface.width(), surface.height()), options.seed)) {
   const ExactWalker walker(surface, kExactAzimuths);
   std::vector<std::optional<ExactReceiver>> found(strips_.size() * kExactPerStrip);
   Progress progress("calibration", static_cast<std::int64_t>(found.size()), options.watch);
