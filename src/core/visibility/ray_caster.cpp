@@ -24,7 +24,7 @@ HemisphereDirections make_directions(const RayOptions& options) {
 
 std::size_t padded(int rays) { return static_cast<std::size_t>(rays + kRayPadding); }
 
-/// From world axes to those of grid rays.
+/// Turns directions from world axes to those of grid rays.
 struct GridTurn {
   float per_x, per_y;
 
@@ -43,8 +43,8 @@ struct GridTurn {
   }
 };
 
-/// From where on each ray has nothing in its way: by the bounds of its quadrant, or because it is above the
-/// map's highest point, `above` the receiver.
+/// Finds from which way on each ray has nothing in its path: by the bounds of its quadrant, or because it is
+/// above the map's highest point, which is `above` higher than the receiver.
 void find_sky_ways(const SlopeBounds& bounds, float above, int count, RayWorkspace& workspace) {
   const float* step_u = workspace.step_u.data();
   const float* step_v = workspace.step_v.data();
@@ -57,7 +57,7 @@ void find_sky_ways(const SlopeBounds& bounds, float above, int count, RayWorkspa
     const float way = bounds.way[level];
     const std::array<float, 4> bound{bounds.slope[0][level], bounds.slope[1][level], bounds.slope[2][level],
                                      bounds.slope[3][level]};
-    for (int k = 0; k < count; ++k) {  // selections only, so that the compiler makes vectors of it
+    for (int k = 0; k < count; ++k) {  // only selections, so that the compiler vectorises the loop
       const float falling_rows = step_u[k] > 0 ? bound[1] : bound[0];
       const float rising_rows = step_u[k] > 0 ? bound[3] : bound[2];
       const float steepest = step_v[k] > 0 ? rising_rows : falling_rows;
