@@ -6,7 +6,7 @@
 namespace heightlight {
 
 /// A sum that does not depend on the order of its terms: each term is rounded down to a multiple of 2^−63,
-/// and whole numbers add up exactly. Terms and sum must be below 2^62 in size.
+/// and whole numbers add up exactly. Terms and sum must be below 2^62 in absolute value.
 class FixedSum {
  public:
   FixedSum() = default;

@@ -66,7 +66,8 @@ std::uint64_t stack_bytes() {
   return bytes;
 }
 
-/// Two stacks per thread: one for OpenMP's thread, and one for that of a library that compresses beside it.
+/// Two stacks per thread: one is for the OpenMP thread, the other for a thread of a library that compresses
+/// beside it.
 std::uint64_t bytes_of_stacks(int threads) { return 2 * stack_bytes() * static_cast<std::uint64_t>(threads); }
 
 }  // namespace
@@ -95,8 +96,7 @@ std::optional<int> parse_thread_setting(const char* text) {
 int default_threads() {
   if (const std::optional<int> asked = parse_thread_setting(std::getenv("OMP_NUM_THREADS")))
     return std::min(*asked, omp_get_thread_limit());
-  int threads = std::min(omp_get_num_procs(),
-                         omp_get_thread_limit());  // the number of processors respects the affinity
+  int threads = std::min(omp_get_num_procs(), omp_get_thread_limit());  // the first respects the affinity
   if (const std::optional<double> quota = find_group_limits().processors)
     threads = static_cast<int>(std::min<double>(threads, std::ceil(*quota)));
   if (const std::optional<std::uint64_t> left = left_of(RLIMIT_AS, process_size().addresses)) {

@@ -64,8 +64,8 @@ class Stopwatch {
   double core_start_ = process_seconds();
 };
 
-/// The least wall time and the least core time of three runs, or of fewer where these pass a second together.
-/// The least is right because other programs can only add to the cost.
+/// The least wall time and the least core time of three runs, or of fewer once they have taken a second
+/// together. The least is right because other programs can only add to the cost.
 template <class Run>
 Cost least_cost(const Run& run) {
   constexpr int kRuns = 3;

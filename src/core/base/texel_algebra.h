@@ -23,7 +23,8 @@ inline Eigen::Vector3f as_eigen(const Vector3& vector) { return {vector.x, vecto
 inline Vector3 to_vector3(const Eigen::Vector3f& vector) { return {vector.x(), vector.y(), vector.z()}; }
 
 /// The largest power of two that the largest |x| reaches, clamped to 2^±1000; 1 where all x are 0. In this
-/// unit, single precision holds whatever double precision does, and dividing by it loses no bit.
+/// unit, numbers of any magnitude that double precision has fit into single precision, and dividing by it
+/// loses no bit.
 inline double unit_of(const TexelVector& x) {
   const double largest = x.empty() ? 0 : as_eigen(x).cwiseAbs().maxCoeff();
   int exponent = 0;

@@ -36,9 +36,8 @@ struct DistanceTable {
   float squared = 0;   ///< D²
   float deepest = 0;   ///< −10⁴ D: what lies deeper below a receiver counts as missing
   Falloff falloff = Falloff::none;
-  std::size_t near = 0;  ///< number of near samples up to the first one beyond D, included
-  std::vector<std::vector<float>>
-      caps;  ///< [r − 1][sample]: √(D² − d²)/d of each ring sample at a horizontal distance d < D
+  std::size_t near = 0;                  ///< number of near samples up to the first one beyond D, included
+  std::vector<std::vector<float>> caps;  ///< [r − 1][sample], at horizontal distances d < D: √(D² − d²)/d
 };
 
 /// Horizontal distance from the sample at `before` to the next one at `way`, at least 10⁻⁶ of `way`: where an

@@ -14,14 +14,13 @@ namespace heightlight {
 struct ExactSky {
   double ambient_occlusion = 1;
   double sky_view_factor = 1;
-  Eigen::Vector3d first =
-      Eigen::Vector3d::Zero();  ///< as SkyMoments::first; `second` is as SkyMoments::second
+  Eigen::Vector3d first = Eigen::Vector3d::Zero();  ///< as SkyMoments has both
   std::array<double, 5> second{};
 };
 
 /// Finds the sky of the receiver at (row, column). With a maximum distance, each visible place of the surface
 /// counts as open by the share μ of its own distance, which is integrated finely along each visible stretch.
-/// (Fast walks take μ at two angles per stretch instead: distance_table.h.)
+/// (With a falloff, fast walks take μ at two angles per stretch instead: distance_table.h.)
 ExactSky find_exact_sky(const ExactWalker& walker, int row, int column,
                         const std::optional<MaximumDistance>& maximum_distance = std::nullopt,
                         BelowHorizontal below = BelowHorizontal::sky);

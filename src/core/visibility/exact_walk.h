@@ -42,9 +42,9 @@ struct SliceView {
   double ambient_occlusion = 1;                            ///< α: the sky's share of the solid angle
   double sky_view_factor = 1;                              ///< A: the sky's form factor
   Eigen::Vector3d bent_normal = Eigen::Vector3d::UnitZ();  ///< unit vector, cosine weighted; world axes
-  std::vector<double>
-      horizon_rad;  ///< per azimuth, in the map's axes: elevation of the profile's steepest point. It may be
-                    ///< below the tangent plane; −π/2 where there is no surface
+  /// Per azimuth: elevation of the profile's steepest point, in the map's axes. It may be below the tangent
+  /// plane; −π/2 where there is no surface.
+  std::vector<double> horizon_rad;
   std::vector<VisibleInterval> links;  ///< by azimuth, and from below upwards within each azimuth
   std::vector<std::size_t> links_end;  ///< per azimuth: index behind its last link
 };

@@ -16,9 +16,9 @@ struct FieldView {
 
 inline FieldView view_of(Map& map) { return {map.values.data(), map.width, map.width, map.height}; }
 
-/// Takes the means of 2 × 2 blocks. A mean counts only the blocks that are not NaN, and is NaN where there is
-/// none. Where the number of rows or columns is odd, the last means are over the blocks that exist. `coarse`
-/// has half as many rows and columns as `fine`, rounded up.
+/// Fills `coarse` with the means of 2 × 2 blocks of `fine`. A mean counts only the blocks that are not NaN,
+/// and is NaN where there is none. Where the number of rows or columns is odd, the last means are over the
+/// blocks that exist. `coarse` has half as many rows and columns as `fine`, rounded up.
 void coarsen_field(const FieldView& fine, const FieldView& coarse);
 
 /// Gives blocks that are NaN the value of the block around them: `coarse` is the level above, in which a

@@ -14,8 +14,7 @@ namespace heightlight {
 class FieldPyramid {
  public:
   struct Level {
-    int first_row =
-        0;  ///< row of the map, in blocks, at which row 0 lies; not 0 only in windows of a larger map
+    int first_row = 0;  ///< block row of the map at row 0; 0 except in windows of a larger map
     int first_column = 0;
     int width = 0;  ///< blocks, without the margin
     int height = 0;

@@ -19,8 +19,9 @@ std::vector<Map> walk_horizon_means(const Surface& surface, const HeightPyramid&
 using HorizonBlock =
     HorizonTerms<std::array<float, std::size_t{WalkTile::kWideGroup} * WalkTile::kWideGroup>>;
 
-/// Finds all kinds of means by fast walks for some such squares only, whose first rows and columns are
-/// multiples of their side. A maximum distance is taken to be sharp. Missing samples are not marked.
+/// Finds all kinds of means by fast walks, but only for the squares of receivers in `blocks`. Their side is
+/// WalkTile::kWideGroup, and their first rows and columns are multiples of it. A maximum distance is taken to
+/// be sharp. Missing samples are not marked.
 std::vector<HorizonBlock> walk_horizon_blocks(const Surface& surface, const HeightPyramid& pyramid,
                                               const WalkOptions& options,
                                               const std::vector<TileFrame>& blocks,

@@ -7,8 +7,9 @@ namespace heightlight {
 namespace {
 
 /// Slope to the place where a stretch leaves the sphere of the maximum distance, given that it ends outside.
-/// kNoHeight if it does not leave it: if it begins above the sphere or behind a hole, or misses the sphere.
-/// The line p + g t meets the sphere where (1 + g²) t² + 2 p g t + p² = D².
+/// kNoHeight where there is no such place, or none that could be the horizon: where the stretch begins above
+/// the sphere or behind a hole, or where its slope only falls. The line p + g t meets the sphere where (1 +
+/// g²) t² + 2 p g t + p² = D².
 float exit_slope(const ProfilePoint& begin, const ProfilePoint& end, const DistanceTable& maximum_distance) {
   const bool above = begin.rise > 0 && begin.squared() > maximum_distance.squared;
   if (begin.rise <= maximum_distance.deepest || above) return kNoHeight;

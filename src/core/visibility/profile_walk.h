@@ -25,8 +25,8 @@
 //
 // Holes, the receiver's own facet and the end of the map are treated as for rays (ray_traversal.h). A
 // breakpoint counts where its facet has all its samples. The first breakpoint after a hole, if it is steeper
-// than the slope so far, is also what is seen below it. A facet at the receiver that rises above the tangent
-// plane is seen at its middle.
+// than the slope so far, also stands for what is seen below it, down to that slope. A facet at the receiver
+// that rises above the tangent plane is seen at its middle.
 
 namespace heightlight {
 
@@ -45,8 +45,7 @@ struct ProfileLine {
 /// seen, whose begin and end are equal. It is seen from the slope at which the stretch before it ends. The
 /// first stretch is seen from the least slope asked for.
 struct VisibleStretch {
-  double slope =
-      0;  ///< slope up to which it is seen: the slope of its end, unless it is the receiver's own facet
+  double slope = 0;  ///< up to which it is seen: its end's, unless it is the receiver's own facet
   double begin_way = 0;
   double end_way = 0;
   SurfacePoint begin;

@@ -33,15 +33,15 @@ class RayCaster {
   void view(int row, int column, RayWorkspace& workspace, ReceiverView& view) const;
 
   /// The sky's share of `view` if there is no sky below the horizontal: rays that miss the surface and point
-  /// there count as hits.
+  /// below the horizontal count as hits.
   SkyShare share_above_horizontal(int row, int column, const ReceiverView& view,
                                   RayWorkspace& workspace) const;
 
   /// The grid rays of a receiver that is present, without the ways after which they are sure to reach the
-  /// sky. Another ray tracer needs them to send the same rays.
+  /// sky. This is what another ray tracer needs to send the same rays.
   RayBundle aim_directions(int row, int column, const LatticeTurn& turn, RayWorkspace& workspace) const;
 
-  /// As aim_directions, with these ways: ready for `traverse`.
+  /// As aim_directions, but with `sky_way` set: ready for `traverse`.
   RayBundle aim(int row, int column, const LatticeTurn& turn, RayWorkspace& workspace) const;
 
   /// Sets open[k] to 1 where a receiver that is present sees the sky in directions[k], and to 0 where the

@@ -317,7 +317,8 @@ struct Lanes {
     return hn::And(advances, hn::And(leaves_parent, hn::Lt(level, set_int(grid.pyramid->levels - 1))));
   }
 
-  /// A lane that moves between two levels moves its offset by the number of entries of the lower level.
+  /// When a lane changes its level, its offset changes by the number of entries of the lower of the two
+  /// levels.
   void change_level(MI descends, MI climbs) {
     const VI one = set_int(1);
     const VI lower_level = hn::Sub(level, hn::IfThenElseZero(descends, one));

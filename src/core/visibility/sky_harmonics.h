@@ -7,8 +7,8 @@
 
 namespace heightlight {
 
-/// Nine harmonics in double precision. `dot` of the harmonics of A and those of a sky is the mean radiance
-/// that comes in, weighted by V cosθ/π.
+/// Nine harmonics in double precision. `dot` of what harmonics_of_moments returns and the harmonics of a
+/// sky's radiance is the mean radiance that comes in, weighted by V cosθ/π.
 using Harmonics = NineHarmonics<double>;
 
 /// The nine Y_lm of a unit vector.

@@ -27,9 +27,9 @@
 // integrals from h to π/2 are
 //     ∫ cos³θ = e² (2 + s)/3,   ∫ sinθ cos²θ = q √q/3,   ∫ sin²θ cosθ = e (1 + s + s²)/3,
 //     ∫ cos⁴θ = 3/8 ζ − m q²/4,   ∫ sinθ cos³θ = q²/4,   ∫ sin²θ cos²θ = ζ/8 + m q²/4.
-// Twice these integrals give the slice's moments of ω along d and z, of ω_d² and of ω_d ω_z. The moment of
-// ω_z² is S less the moment of ω_d². cos 2φ and sin 2φ turn the moment of ω_d² into those of x² − y² and 2
-// xy.
+// Twice these integrals, combined with c and n_z, give the slice's moments of ω along d and z, of ω_d² and of
+// ω_d ω_z. The moment of ω_z² is S less the moment of ω_d². Times cos 2φ and sin 2φ, the moment of ω_d² gives
+// the moments of x² − y² and 2 xy.
 
 namespace heightlight {
 
@@ -61,9 +61,8 @@ struct SkySums {
   alignas(64) Values solid{};  ///< Σ (1 − sin h)
 
   SkyWanted wanted;
-  alignas(64) std::array<Values, 3> first{};  ///< if wanted.first: Σ of twice the slices' moments of ω
-  alignas(64) std::array<Values, 5> second{};  ///< if wanted.second: Σ of twice the slices' moments of x² −
-                                               ///< y², xy, z², xz, yz
+  alignas(64) std::array<Values, 3> first{};   ///< if wanted.first: Σ of twice the slices' moments of ω
+  alignas(64) std::array<Values, 5> second{};  ///< if wanted.second: the same of x² − y², xy, z², xz, yz
 
   BelowHorizontal below = BelowHorizontal::sky;  ///< ground: walks start at what is level, where that is
                                                  ///< higher than the tangent plane; S(m₀) does not change

@@ -4,8 +4,8 @@
 
 #include "visibility/ray_traversal.h"
 
-// Beyond which way is a ray sure to be above the surface? A receiver's rays share the answer, so that it
-// costs little to find and spares many of them the walk.
+// Bounds that tell beyond which way a ray is sure to be above the surface. A receiver's rays share them, so
+// that they cost little to find and spare many rays the walk.
 //
 // At level l of the maximum pyramid, the receiver's block and its neighbours cover everything nearer than 2^l
 // columns and rows. Let D be the height of their highest point above the receiver. Level l − 1 covers what is

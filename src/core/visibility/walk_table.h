@@ -40,8 +40,9 @@ struct NearSample {
   int column[2] = {0, 0};
   float weight[2] = {0, 0};  ///< of each sample, divided by the world distance: they sum to `per_distance`
   float per_distance = 0;    ///< 1 / (t ℓ)
-  int offset[2] = {
-      0, 0};  ///< index of each sample minus the receiver's, in a window of near_window_width samples per row
+  /// Index of each sample minus the index of the receiver's, in a window with near_window_width samples per
+  /// row.
+  int offset[2] = {0, 0};
 };
 
 /// The place that a ring sample looks at, rounded to a sample: offset from the receiver's sample in whole

@@ -213,8 +213,7 @@ void WalkTile::load(const Surface& surface, const HeightPyramid& pyramid, const 
   const int row = frame.first_row;
   const int column = frame.first_column;
   const Image<float>& map = surface.map.height;
-  float reference =
-      0;  // a height of the tile's own, so that level ground stays level and digits go to differences
+  float reference = 0;  // a height of the tile's own: level ground stays level, and digits go to differences
   for (int i = 0; i < frame.rows * frame.columns; ++i) {
     const float value = map(row + i / frame.columns, column + i % frame.columns);
     if (std::isnan(value)) continue;

@@ -70,17 +70,14 @@ struct TileGrid {
 struct ReceiverTile : TileFrame {
   static constexpr int kTexels = kSide * kSide;
 
-  int map_row =
-      0;  ///< row of the tile's corner in the map; differs from first_row only in windows of a larger map
+  int map_row = 0;  ///< of its corner, in the whole map: first_row except in windows of a larger map
   int map_column = 0;
   alignas(64) std::array<float, kTexels> height;  ///< above the tile's reference; −kNoHeight where missing,
                                                   ///< so that a missing receiver sees nothing
-  alignas(
-      64) std::array<float, kTexels> slope_x;  ///< slope of the tangent plane along x, height per world unit
+  alignas(64) std::array<float, kTexels> slope_x;  ///< of the tangent plane along x, per world unit
   alignas(64) std::array<float, kTexels> slope_y;
   alignas(64) std::array<float, kTexels> normal_z;
-  alignas(64) std::array<float, kTexels> level_x;  ///< slope along x of what is level at the receiver
-                                                   ///< (level_gradient)
+  alignas(64) std::array<float, kTexels> level_x;  ///< slope along x of what is level there (level_gradient)
   alignas(64) std::array<float, kTexels> level_y;
   std::array<bool, kTexels> present;
 
@@ -110,9 +107,9 @@ struct WalkTile : ReceiverTile {
   ReceiverGroups wide_groups;  ///< groups of kWideGroup receivers a side
 
   std::vector<HeightWindow> windows;  ///< [0]: the samples themselves; [r]: the blocks of ring r
-  HeightWindow
-      lifted;  ///< as windows[0], but each sample is raised by kLift of what the highest of it and its eight
-               ///< neighbours has above it; samples at the window's own edge are not raised
+  /// As windows[0], but each sample is raised by kLift of what the highest of it and its eight neighbours has
+  /// above it. Samples at the window's own edge are not raised.
+  HeightWindow lifted;
 
   /// Copies everything that walks with these options and `rings` rings may read. Reuses its memory.
   void load(const Surface& surface, const HeightPyramid& pyramid, const WalkOptions& options, int rings,
