@@ -9,8 +9,9 @@
 // The sky of a receiver whose occluders count only within a maximum distance D.
 //
 // Walking outward, the receiver sees every stretch of the profile that rises above what came before. A
-// stretch is seen between two slopes m and m'. What the sky would send from there counts by the share μ(d), d
-// being the distance of the stretch:
+// stretch is seen between two slopes m and m'. What the sky would send from there counts by the share μ(d),
+// where d is the distance of the stretch. With S(m) for what the sky sends from above the slope m
+// (sky_walk.h), the slice's sum is
 //     Σ μ(d) (S(m) − S(m')) + S(the last m).
 // A stretch is seen from the point on where it passes the slope m. With a falloff, the mean of μ is taken at
 // two angles between m and m'. A sharp maximum distance hides what lies inside the sphere of radius D around

@@ -14,7 +14,7 @@ namespace heightlight {
 struct ExactSky {
   double ambient_occlusion = 1;
   double sky_view_factor = 1;
-  Eigen::Vector3d first = Eigen::Vector3d::Zero();  ///< as SkyMoments has both
+  Eigen::Vector3d first = Eigen::Vector3d::Zero();  ///< `first` and `second` are as in SkyMoments
   std::array<double, 5> second{};
 };
 
