@@ -57,7 +57,7 @@ double ExactWalker::azimuth_rad(int k) const { return 2 * std::numbers::pi * (k 
 
 double ExactWalker::walk(int row, int column, const Eigen::Vector2d& azimuth, double least_slope,
                          std::vector<VisibleStretch>& stretches) const {
-  if (pyramid_.levels == 0) return -std::numeric_limits<double>::infinity();  // no cells, nothing in the way
+  if (pyramid_.levels == 0) return -std::numeric_limits<double>::infinity();  // no cells: nothing occludes
   ProfileLine line;
   line.row = row;
   line.column = column;

@@ -141,7 +141,7 @@ void RayCaster::look_along(int row, int column, const std::vector<Eigen::Vector3
                            RayWorkspace& workspace, std::vector<char>& open) const {
   assert(directions.size() <= static_cast<std::size_t>(directions_.count));
   open.assign(directions.size(), 1);
-  if (pyramid_.levels == 0) return;  // no cells, nothing in the way
+  if (pyramid_.levels == 0) return;  // no cells: nothing occludes
   const GridTurn turn_to_grid(surface_.map.spacing);
   for (std::size_t k = 0; k < directions.size(); ++k) turn_to_grid.set_ray(k, directions[k], workspace);
   RayBundle bundle = bundle_of(row, column, static_cast<int>(directions.size()), workspace);
@@ -159,7 +159,7 @@ void RayCaster::view(int row, int column, RayWorkspace& workspace, ReceiverView&
   view.rays = directions_.count;
   view.weight_table = static_cast<std::uint8_t>(turn.table);
   view.weight = directions_.weight[static_cast<std::size_t>(turn.table)].data();
-  if (pyramid_.levels == 0) return;  // no cells, nothing in the way
+  if (pyramid_.levels == 0) return;  // no cells: nothing occludes
   const RayBundle bundle = aim(row, column, turn, workspace);
   traverse(grid_, bundle, {workspace.cell.data(), workspace.across.data(), workspace.down.data()});
   for (int k = 0; k < bundle.count; ++k) {

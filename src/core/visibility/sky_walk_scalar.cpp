@@ -69,8 +69,8 @@ float openness(Falloff falloff, float share) {
   return falloff == Falloff::exponential ? exponential_openness(share, 1.0F) : share;
 }
 
-/// Mean of μ over a stretch from `begin` to `end`, seen from slope m to `seen`. It is the mean of μ at about
-/// a quarter and three quarters of the angle between them, weighted by what these directions add to the
+/// Mean of μ over a stretch from `begin` to `end`, seen from slope m to `seen`. It is the mean of μ at a
+/// quarter and three quarters of the angle between them, weighted by what these directions add to the
 /// irradiance.
 float share_of_stretch(const ProfilePoint& begin, const ProfilePoint& end, float c, float n_z, float m,
                        float seen, const DistanceTable& maximum_distance) {
