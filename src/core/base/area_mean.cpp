@@ -11,7 +11,7 @@
 namespace heightlight {
 namespace {
 
-/// The samples [begin, end) of `from` that make the i-th of `to` parts.
+/// The samples [begin, end), of `from` in all, that make up the i-th of `to` parts.
 struct Part {
   int begin = 0;
   int end = 0;

@@ -59,7 +59,7 @@ std::string write_enough(std::uint64_t bytes) {
 }
 
 std::uint64_t peak_memory() {
-  // That of getrusage counts what the process was before it became this program, too.
+  // The peak that getrusage tells also counts what the process held before it became this program.
   std::ifstream status("/proc/self/status");
   for (std::string key; status >> key;) {
     std::uint64_t kibibytes = 0;

@@ -21,7 +21,7 @@ std::vector<std::string> split(std::string_view text, char between) {
   return parts;
 }
 
-/// A whole number, with which the text begins; nothing for "max", -1 and anything else.
+/// The whole number with which the text begins; nothing for "max", -1 and anything else.
 std::optional<std::uint64_t> parse_amount(std::string_view text) {
   std::uint64_t value = 0;
   const auto [stop, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -33,7 +33,7 @@ std::optional<std::uint64_t> read_amount(const std::filesystem::path& path) {
   return parse_amount(read_all(path));
 }
 
-/// The amount behind a key of a file such as memory.stat; 0 where it is not there.
+/// The amount after a key in a file such as memory.stat; 0 where the key is not there.
 std::uint64_t amount_of(const std::string& statistics, const std::string& key) {
   for (const std::string& line : split(statistics, '\n')) {
     if (line.starts_with(key + " ")) return parse_amount(line.substr(key.size() + 1)).value_or(0);
@@ -46,7 +46,8 @@ void tighten(std::optional<T>& least, const std::optional<T>& value) {
   if (value && (!least || *value < *least)) least = value;
 }
 
-/// What a limit leaves beside what is in use; what only caches files can be had for the asking.
+/// What a limit leaves beside what is in use. Memory that only caches files counts as left: the kernel frees
+/// it on demand.
 std::uint64_t left_of(std::uint64_t limit, std::uint64_t used, std::uint64_t cached) {
   const std::uint64_t held = used - std::min(used, cached);
   return limit - std::min(limit, held);
@@ -81,8 +82,8 @@ std::optional<double> processors(const std::filesystem::path& group, bool unifie
   return static_cast<double>(*quota) / static_cast<double>(*period);
 }
 
-/// Folders of the mount for a group and those above it, as far as the mount shows them. A container may see
-/// its own group at the mount's point, under a name from outside that leads nowhere.
+/// Folders in the mount for a group and the groups above it, as far as the mount shows them. A container may
+/// see its own group at the mount point; the group's name is then one from outside that leads nowhere.
 std::vector<std::filesystem::path> folders_of(const std::filesystem::path& root, const GroupMount& mount,
                                               std::string group) {
   if (mount.root != "/" && group.starts_with(mount.root)) group.erase(0, mount.root.size());
@@ -91,7 +92,7 @@ std::vector<std::filesystem::path> folders_of(const std::filesystem::path& root,
   std::filesystem::path folder = top;
   for (const std::string& name : split(group, '/')) {
     if (name.empty()) continue;
-    if (name == "..") break;  // outside of what a group's namespace shows
+    if (name == "..") break;  // outside what the group's namespace shows
     folder /= name;
     folders.push_back(folder);
   }

@@ -15,7 +15,7 @@ std::string in_digits(Real value) {
   return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
 }
 
-/// So many significant digits, in any locale.
+/// The value with so many significant digits, in any locale.
 template <class Real>
 std::string in_digits(Real value, int significant) {
   static_assert(std::is_floating_point_v<Real>);

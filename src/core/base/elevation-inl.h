@@ -15,13 +15,13 @@
 HWY_BEFORE_NAMESPACE();
 namespace heightlight::HWY_NAMESPACE {
 
-/// Of a direction at elevation h: cos h ≥ 0, sin h, and its angle from the zenith, π/2 − h.
+/// A direction at elevation h: cos h ≥ 0, sin h, and its angle from the zenith, π/2 − h.
 template <class V>
 struct Elevation {
   V cosine, sine, from_zenith;
 };
 
-/// asin x for 0 ≤ x ≤ 1/√2, to 1e-8: x + x³ P(x²), P by Remez' exchange.
+/// asin x for 0 ≤ x ≤ 1/√2, to 1e-8: x + x³ P(x²), where P was found by Remez' exchange.
 template <class D, class V = hwy::HWY_NAMESPACE::Vec<D>>
 HWY_INLINE V arc_sine(D d, V x) {
   namespace hn = hwy::HWY_NAMESPACE;
@@ -33,8 +33,9 @@ HWY_INLINE V arc_sine(D d, V x) {
   return hn::MulAdd(hn::Mul(x, square), sum, x);
 }
 
-/// 1/√x to 2e-7 of it, for normal x, and 1 of 1: Newton's steps on the machine's estimate, good to 11 bits on
-/// x86 and to few elsewhere. Divisions and roots would be most of a slice's cost.
+/// 1/√x for normal x, to 2e-7 of its value, and exactly 1 for x = 1. Newton's steps improve the machine's
+/// estimate, which is good to 11 bits on x86 and to few elsewhere. Divisions and roots would be most of a
+/// slice's cost.
 template <class D, class V = hwy::HWY_NAMESPACE::Vec<D>>
 HWY_INLINE V reciprocal_root(D d, V x) {
   namespace hn = hwy::HWY_NAMESPACE;
@@ -48,8 +49,8 @@ HWY_INLINE V reciprocal_root(D d, V x) {
   return root;
 }
 
-/// Of the direction that rises by `slope` for each unit along the ground; what is steeper than 1e18 is taken
-/// as that. Sine and cosine to 2e-7, angles to 3e-7, level ground exactly.
+/// Elevation of the direction that rises by `slope` for each unit along the ground. A slope steeper than 1e18
+/// counts as 1e18. Sine and cosine are accurate to 2e-7, angles to 3e-7; level ground is exact.
 template <class D, class V = hwy::HWY_NAMESPACE::Vec<D>>
 HWY_INLINE Elevation<V> elevation(D d, V slope) {
   namespace hn = hwy::HWY_NAMESPACE;
@@ -58,7 +59,7 @@ HWY_INLINE Elevation<V> elevation(D d, V slope) {
   const V size = hn::Min(hn::Abs(slope), hn::Set(d, 1e18F));
   const V cosine = reciprocal_root(d, hn::MulAdd(size, size, one));
   const V sine = hn::Min(hn::Mul(size, cosine), one);
-  const V angle = arc_sine(d, hn::Min(sine, cosine));  // of h or of π/2 − h, whichever is smaller
+  const V angle = arc_sine(d, hn::Min(sine, cosine));  // |h| or π/2 − |h|, whichever is smaller
   const auto steep = hn::Gt(sine, cosine);
   const V from_zenith = hn::IfThenElse(steep, angle, hn::Sub(half_pi, angle));
   const auto falls = hn::Lt(slope, hn::Zero(d));

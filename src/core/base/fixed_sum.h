@@ -5,12 +5,12 @@
 
 namespace heightlight {
 
-/// A sum that is the same in whatever order its terms come: each term is rounded down to a multiple of 2^−63,
-/// and whole numbers add up exactly. Terms are below 2^62 in size, and so is the sum.
+/// A sum that does not depend on the order of its terms: each term is rounded down to a multiple of 2^−63,
+/// and whole numbers add up exactly. Terms and sum must be below 2^62 in absolute value.
 class FixedSum {
  public:
   FixedSum() = default;
-  /// As whole() and part() have it.
+  /// From the values that whole() and part() return.
   FixedSum(std::int64_t whole, std::uint64_t part) : whole_(whole), part_(part) {}
 
   void add(double term) {
@@ -25,7 +25,7 @@ class FixedSum {
   double value() const { return static_cast<double>(whole_) + std::ldexp(static_cast<double>(part_), -64); }
 
   std::int64_t whole() const { return whole_; }
-  std::uint64_t part() const { return part_; }  ///< in units of 2^−64, an even number of them
+  std::uint64_t part() const { return part_; }  ///< in units of 2^−64; always even
 
   friend bool operator==(const FixedSum&, const FixedSum&) = default;
 

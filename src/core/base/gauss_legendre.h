@@ -11,8 +11,9 @@ struct QuadratureNode {
   double weight = 0;
 };
 
-/// Nodes of the Gauss–Legendre rule on [0, 1], ascending; weights sum to 1. Exact for polynomials of degree
-/// 2n − 1. n ≥ 1; nodes by Newton's method on the three-term recurrence, to a few roundings.
+/// Nodes of the Gauss–Legendre rule with n ≥ 1 nodes on [0, 1], ascending; weights sum to 1. The rule is
+/// exact for polynomials of degree 2n − 1. Nodes come from Newton's method on the three-term recurrence and
+/// are accurate to a few roundings.
 inline std::vector<QuadratureNode> gauss_legendre(int n) {
   std::vector<QuadratureNode> nodes;
   for (int i = n; i >= 1; --i) {

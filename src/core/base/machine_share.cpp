@@ -18,9 +18,9 @@
 namespace heightlight {
 namespace {
 
-/// What the process takes, by /proc/self/statm.
+/// What the process takes, from /proc/self/statm.
 struct ProcessSize {
-  std::uint64_t addresses = 0;  ///< bytes, here and below
+  std::uint64_t addresses = 0;  ///< bytes, as are the others
   std::uint64_t resident = 0;
   std::uint64_t data = 0;
 };
@@ -38,7 +38,7 @@ ProcessSize process_size() {
   return {addresses * page, resident * page, data * page};
 }
 
-/// By the kernel's own estimate, in all of the machine.
+/// Bytes available on the whole machine, by the kernel's own estimate.
 std::uint64_t available_on_machine() {
   std::ifstream meminfo("/proc/meminfo");
   for (std::string key; meminfo >> key;) {
@@ -50,7 +50,7 @@ std::uint64_t available_on_machine() {
          static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
 }
 
-/// Of a limit of the process, beside what it has; nothing where there is no limit.
+/// What a limit of the process leaves beside what is in use; nothing where there is no limit.
 std::optional<std::uint64_t> left_of(__rlimit_resource resource, std::uint64_t used) {
   rlimit limit{};
   if (getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return {};
@@ -66,7 +66,8 @@ std::uint64_t stack_bytes() {
   return bytes;
 }
 
-/// Two threads each: OpenMP's, and those of libraries that compress beside them.
+/// Two stacks per thread: one is for the OpenMP thread, the other for a thread of a library that compresses
+/// beside it.
 std::uint64_t bytes_of_stacks(int threads) { return 2 * stack_bytes() * static_cast<std::uint64_t>(threads); }
 
 }  // namespace
@@ -95,7 +96,7 @@ std::optional<int> parse_thread_setting(const char* text) {
 int default_threads() {
   if (const std::optional<int> asked = parse_thread_setting(std::getenv("OMP_NUM_THREADS")))
     return std::min(*asked, omp_get_thread_limit());
-  int threads = std::min(omp_get_num_procs(), omp_get_thread_limit());  // which know the affinity
+  int threads = std::min(omp_get_num_procs(), omp_get_thread_limit());  // the first respects the affinity
   if (const std::optional<double> quota = find_group_limits().processors)
     threads = static_cast<int>(std::min<double>(threads, std::ceil(*quota)));
   if (const std::optional<std::uint64_t> left = left_of(RLIMIT_AS, process_size().addresses)) {

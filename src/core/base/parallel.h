@@ -15,7 +15,7 @@ namespace heightlight {
 /// thread that calls it, so that two callers do not disturb each other.
 inline int thread_count() { return omp_get_max_threads(); }
 
-/// Sets that number for as long as this object lives. Results never depend on it.
+/// Sets the number of threads for as long as this object lives. Results never depend on it.
 class ThreadScope {
  public:
   /// 0 leaves the number as it is.
@@ -30,15 +30,15 @@ class ThreadScope {
   int before_;
 };
 
-/// Calls body(i) once for each 0 ≤ i < count, in any order, on all threads. Bodies write to places of their
+/// Calls body(i) once for each 0 ≤ i < count, in any order, on all threads. Each call writes to places of its
 /// own, so that results are the same for any number of threads. The first exception stops the loop and is
-/// thrown again here. Where there is a progress, it hears of each i, and its watch may end the loop: then
-/// this throws Cancelled.
+/// thrown again here. If `progress` is given, each finished i is reported to it, and its watch may end the
+/// loop: then this function throws Cancelled.
 template <class Body>
 void parallel_for(std::int64_t count, Body&& body, Progress* progress = nullptr) {
   std::exception_ptr failure;
   std::atomic<bool> stop{false};
-  // No more threads than there is work: those left over would only wait, and burn a processor meanwhile.
+  // No more threads than there is work: the others would only wait, and burn a processor meanwhile.
   const auto threads = static_cast<int>(std::clamp<std::int64_t>(count, 1, thread_count()));
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
   for (std::int64_t i = 0; i < count; ++i) {

@@ -6,8 +6,9 @@
 
 namespace heightlight {
 
-/// A percentile is an order statistic, linearly interpolated at share × (count − 1): `beyond` of the way from
-/// the one of rank `lower` to that of rank `upper`. The one meaning of the word here.
+/// The place of a percentile among sorted values, share × (count − 1), and the linear interpolation there:
+/// from the value of rank `lower` by the part `beyond`, in [0, 1), to the value of rank `upper`. The project
+/// uses the word in no other sense.
 struct PercentilePlace {
   std::size_t lower = 0;
   std::size_t upper = 0;
@@ -24,8 +25,8 @@ struct PercentilePlace {
   double between(double at_lower, double at_upper) const { return at_lower + (at_upper - at_lower) * beyond; }
 };
 
-/// Of at least one value, none of which is NaN. They are reordered. Values before `settled` are in their
-/// places, and below the percentile.
+/// Percentile of at least one value, none of which is NaN. Reorders the values. The first `settled` values
+/// must be in their sorted places already, and below the percentile.
 template <class T>
 double percentile(std::span<T> values, double share, std::size_t settled = 0) {
   const auto at = [&values](std::size_t i) { return values.begin() + static_cast<std::ptrdiff_t>(i); };

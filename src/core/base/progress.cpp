@@ -16,7 +16,7 @@ Progress::~Progress() {
 void Progress::add(std::int64_t units) {
   const std::int64_t done = done_.fetch_add(units, std::memory_order_relaxed) + units;
   if (!watch_.tell) return;
-  // One thread tells; the others go on with their work.
+  // One thread reports; the others go on with their work.
   const std::unique_lock lock(telling_, std::try_to_lock);
   if (lock) tell(done, false);
 }

@@ -9,10 +9,10 @@
 
 namespace heightlight {
 
-/// One step of long work, as its watch hears of it. `add` may be called from any thread.
+/// One step of long work, as its watch is told of it. `add` may be called from any thread.
 class Progress {
  public:
-  /// `total` units of work; 0 where nobody knows. `watch` must outlive the step.
+  /// `total` units of work; 0 where the number is unknown. `watch` must outlive the step.
   Progress(std::string name, std::int64_t total, const Watch& watch);
   ~Progress();
   Progress(const Progress&) = delete;
@@ -23,7 +23,7 @@ class Progress {
   /// Whether the watch wants the work to end.
   bool stopped() const { return watch_.stopped && watch_.stopped(); }
 
-  /// Throws Cancelled where it does.
+  /// Throws Cancelled if the watch wants the work to end.
   void throw_if_stopped() const;
 
  private:

@@ -6,12 +6,12 @@
 
 namespace heightlight {
 
-/// √(squares / count); 0 of none.
+/// √(squares / count); 0 for a count of 0.
 inline double root_mean(double squares, std::size_t count) {
   return count > 0 ? std::sqrt(squares / static_cast<double>(count)) : 0;
 }
 
-/// 0 of none.
+/// Root of the mean square of the values; 0 where there are none.
 inline double root_mean_square(const std::vector<double>& values) {
   double squares = 0;
   for (const double value : values) squares += value * value;

@@ -13,8 +13,8 @@ namespace heightlight {
 /// What a piece of work took, in seconds.
 struct Cost {
   double wall = 0;
-  double core = 0;    ///< of processors, summed over the process' threads
-  double others = 0;  ///< of processors, for other programs meanwhile: they lengthen `wall`
+  double core = 0;    ///< processor seconds of this process, summed over its threads
+  double others = 0;  ///< processor seconds of other programs meanwhile: they lengthen `wall`
 };
 
 inline Cost operator+(Cost a, Cost b) { return {a.wall + b.wall, a.core + b.core, a.others + b.others}; }
@@ -22,7 +22,7 @@ inline Cost operator*(double times, Cost cost) {
   return {times * cost.wall, times * cost.core, times * cost.others};
 }
 
-/// Runs from where it is made.
+/// Starts when it is made.
 class Stopwatch {
  public:
   Cost elapsed() const {
@@ -31,7 +31,7 @@ class Stopwatch {
     return {wall.count(), core, std::max(0.0, machine_seconds() - machine_start_ - core)};
   }
 
-  /// Wall seconds since the last lap, or since it was made.
+  /// Wall seconds since the last lap, or since the stopwatch was made.
   double lap() {
     const std::chrono::steady_clock::time_point now = std::chrono::steady_clock::now();
     const std::chrono::duration<double> wall = now - lap_start_;
@@ -46,8 +46,8 @@ class Stopwatch {
     return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
   }
 
-  /// Seconds that all processors worked since the machine started, in steps of its clock (10 ms); 0 where the
-  /// system does not tell.
+  /// Seconds that all processors have worked since the machine started, in steps of its clock (10 ms); 0
+  /// where the system does not tell.
   static double machine_seconds() {
     std::ifstream file("/proc/stat");
     std::string cpu;
@@ -64,8 +64,8 @@ class Stopwatch {
   double core_start_ = process_seconds();
 };
 
-/// The least of three runs' costs, of fewer where they pass a second together: what other programs take from
-/// this one only ever adds.
+/// The least wall time and the least core time of three runs, or of fewer once they have taken a second
+/// together. The least is right because other programs can only add to the cost.
 template <class Run>
 Cost least_cost(const Run& run) {
   constexpr int kRuns = 3;

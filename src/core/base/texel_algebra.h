@@ -6,7 +6,7 @@
 
 #include "heightlight/image.h"
 
-// Plain values, as Eigen calculates with them.
+// Conversions between plain values and Eigen's types.
 
 namespace heightlight {
 
@@ -22,8 +22,9 @@ inline Eigen::Vector3f as_eigen(const Vector3& vector) { return {vector.x, vecto
 
 inline Vector3 to_vector3(const Eigen::Vector3f& vector) { return {vector.x(), vector.y(), vector.z()}; }
 
-/// The largest power of two that the largest |x| reaches, within 2^±1000; 1 where all is 0. In units of it
-/// single precision holds whatever double does, and dividing by it loses no bit.
+/// The largest power of two that the largest |x| reaches, clamped to 2^±1000; 1 where all x are 0. In this
+/// unit, numbers of any magnitude that double precision has fit into single precision, and dividing by it
+/// loses no bit.
 inline double unit_of(const TexelVector& x) {
   const double largest = x.empty() ? 0 : as_eigen(x).cwiseAbs().maxCoeff();
   int exponent = 0;
@@ -31,7 +32,7 @@ inline double unit_of(const TexelVector& x) {
   return largest > 0 ? std::ldexp(1.0, std::clamp(exponent - 1, -1000, 1000)) : 1;
 }
 
-/// What an expression comes to.
+/// The value of an expression.
 template <class Expression>
 TexelVector to_texels(const Eigen::MatrixBase<Expression>& expression) {
   TexelVector values(static_cast<std::size_t>(expression.size()));

@@ -12,7 +12,8 @@
 namespace heightlight {
 namespace {
 
-/// Adds ∫ over a slice, given its mass, its solid angle, and its moments along d and z.
+/// Adds the integrals over a slice: its mass, its solid angle, and its first and second moments along d and
+/// z.
 void add_slice(const Eigen::Vector2d& azimuth, double mass, double angle, const Eigen::Vector2d& first,
                const Eigen::Vector2d& second, ExactSky& open) {
   const double x = azimuth.x();
@@ -27,9 +28,9 @@ void add_slice(const Eigen::Vector2d& azimuth, double mass, double angle, const 
   open.second[4] += second.y() * y;
 }
 
-/// A straight part of the profile, seen from slope to slope. Angles are integrated by Gauss's rule in pieces
-/// of a tenth, or, where the part crosses the sphere of the maximum distance, of a thousandth; the line's
-/// distance under each angle follows from the two ends.
+/// Adds a straight part of the profile that is seen from `from_slope` to its own slope. Angles are integrated
+/// by Gauss's rule in pieces of 0.1 rad, or of 0.001 rad where the part crosses the sphere of the maximum
+/// distance. The line's distance under each angle follows from the two ends.
 void add_stretch(const SliceNormal& normal, const Eigen::Vector2d& azimuth, double from_slope,
                  const VisibleStretch& stretch, const MaximumDistance& maximum_distance, ExactSky& open) {
   static const std::vector<QuadratureNode> kNodes = gauss_legendre(4);
@@ -58,8 +59,8 @@ void add_stretch(const SliceNormal& normal, const Eigen::Vector2d& azimuth, doub
   }
 }
 
-/// The receiver's own facet, where it rises above the tangent plane: it is seen at its middle, which no edge
-/// of a cell goes through.
+/// Is the stretch the receiver's own facet, where it rises above the tangent plane? Such a facet is seen at
+/// its middle, through which no edge of a cell goes.
 bool is_own_facet(const VisibleStretch& stretch) {
   const float across = stretch.begin.across;
   const float down = stretch.begin.down;

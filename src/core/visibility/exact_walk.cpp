@@ -13,14 +13,14 @@ namespace {
 
 constexpr double kNothingKnown = std::numeric_limits<double>::quiet_NaN();
 
-/// Horizontal unit vector. An azimuth along an axis misses it by the rounding of π; on the outer line of an
-/// open map it would leave the map at once.
+/// Horizontal unit vector of an azimuth. The vector of an azimuth along an axis misses the axis by the
+/// rounding of π. On the outer line of an open map it would leave the map at once.
 Eigen::Vector2d unit_azimuth(double azimuth_rad) {
   const auto snapped = [](double component) { return std::fabs(component) < 1e-15 ? 0.0 : component; };
   return {snapped(std::cos(azimuth_rad)), snapped(std::sin(azimuth_rad))};
 }
 
-/// Of two places in one cell, at a share of the way from the first to the second.
+/// The place between two places in one cell, at a share of the line from the first to the second.
 SurfacePoint place_between(const SurfacePoint& begin, const SurfacePoint& end, double share) {
   const auto part = static_cast<float>(share);
   return {begin.cell, begin.across + part * (end.across - begin.across),
@@ -57,7 +57,7 @@ double ExactWalker::azimuth_rad(int k) const { return 2 * std::numbers::pi * (k 
 
 double ExactWalker::walk(int row, int column, const Eigen::Vector2d& azimuth, double least_slope,
                          std::vector<VisibleStretch>& stretches) const {
-  if (pyramid_.levels == 0) return -std::numeric_limits<double>::infinity();  // no cells, nothing in the way
+  if (pyramid_.levels == 0) return -std::numeric_limits<double>::infinity();  // no cells: nothing occludes
   ProfileLine line;
   line.row = row;
   line.column = column;

@@ -3,7 +3,7 @@
 namespace heightlight {
 namespace {
 
-/// The lines that lead at three heights, as they are found.
+/// The highest of the lines seen so far, at each of three heights.
 struct Envelope {
   std::array<float, FarView::kLines> z;
   std::array<float, FarView::kLines> slope;

@@ -1,4 +1,5 @@
-// The lanes of the vector hold neighbouring groups of a row. The arithmetic is far_view_scalar.cpp's.
+// The lanes of the vector hold neighbouring groups of a row. The arithmetic is the same as in
+// far_view_scalar.cpp.
 
 #include <cstddef>
 #include <cstdint>
@@ -80,7 +81,7 @@ HWY_INLINE void look_at_ring(const WalkTile& tile, const AzimuthTable& azimuth, 
   }
 }
 
-/// The lines of a row of wide groups, padded as FarView is.
+/// The lines of a row of wide groups, padded like FarView.
 struct WideRow {
   static constexpr std::size_t kStride = WalkTile::kSide / WalkTile::kWideGroup + kReadPadding;
   std::array<float, FarView::kLines * kStride> height{};
@@ -100,14 +101,14 @@ void look_from_wide_groups(const WalkTile& tile, const AzimuthTable& azimuth, in
   }
 }
 
-/// Finishes row i of the tile's groups below the lines of the wide ones that they belong to.
+/// Finishes row i of the tile's groups, from the lines of the wide groups that they belong to.
 void look_from_groups(const WalkTile& tile, const AzimuthTable& azimuth, const WideRow& wide, int i,
                       FarView& view) {
   constexpr Groups kD{};
   constexpr hn::RebindToSigned<Groups> kI{};
   const ReceiverGroups& groups = tile.groups;
   const auto each_twice = hn::IndicesFromVec(kD, hn::ShiftRight<1>(hn::Iota(kI, 0)));
-  // Groups sit two texels before or behind the look-out of the wide ones.
+  // The middle of a group is two texels before or behind the middle of its wide group.
   const float down = static_cast<float>(i % 2 == 0 ? -2 : 2) * azimuth.along_row;
   const auto is_second = hn::RebindMask(kD, hn::TestBit(hn::Iota(kI, 0), hn::Set(kI, 1)));
   const auto right = hn::IfThenElse(is_second, hn::Set(kD, 2 * azimuth.along_column),
@@ -131,7 +132,7 @@ void look_from_groups(const WalkTile& tile, const AzimuthTable& azimuth, const W
 }
 
 void look_far_lanes(const WalkTile& tile, const AzimuthTable& azimuth, FarView& view) {
-  // Groups come in pairs, which are of one wide group.
+  // Groups come in pairs that belong to one wide group.
   if constexpr (hn::MaxLanes(Groups()) < 2) return look_far_scalar(tile, azimuth, view);
   WideRow wide;
   for (int i = 0; i * WalkTile::kWideGroup < tile.rows; ++i) {

@@ -14,7 +14,7 @@
 namespace heightlight {
 namespace {
 
-/// Without values.
+/// The levels without their values.
 std::vector<FieldPyramid::Level> lay_out(const WindowPlace& place, int levels, int margin) {
   std::vector<FieldPyramid::Level> layout;
   for (int l = 0; l <= levels; ++l) {
@@ -78,7 +78,8 @@ void FieldPyramid::take_level(int l, Map values) {
   level.values = std::move(values.values);
 }
 
-/// `outside`: what stands beyond the edges of a map that does not tile; null: its outermost values.
+/// `outside`: the value beyond the edges of a map that does not tile; null: the outermost values are
+/// repeated.
 void FieldPyramid::fill_margins(std::size_t l, const float* outside) {
   Level& level = levels_[l];
   const int margin = level.margin;

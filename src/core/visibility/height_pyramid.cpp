@@ -10,8 +10,8 @@
 namespace heightlight {
 namespace {
 
-/// Number of samples present in each block of level 1; from level 2 on, blocks weigh alike, except those that
-/// hold none.
+/// The children of a block: samples in level 1, blocks from level 2 on. Children weigh alike, except those
+/// that are missing or hold no sample, which do not count.
 struct Children {
   float sum = 0;
   float highest = kNoHeight;
@@ -64,7 +64,7 @@ HeightPyramid build_height_pyramid(const Surface& surface) {
   const Image<float>* mean = &pyramid.level_0(surface);
   const Image<float>* highest = mean;
   while (mean->width > 1 || mean->height > 1) {
-    pyramid.levels.reserve(32);  // so that the pointers into it stay
+    pyramid.levels.reserve(32);  // so that the pointers into it stay valid
     pyramid.levels.push_back(coarsen_heights(*mean, *highest));
     mean = &pyramid.levels.back().mean;
     highest = &pyramid.levels.back().highest;

@@ -11,7 +11,7 @@
 namespace heightlight {
 namespace {
 
-/// What rings see of level l.
+/// Heights of level l as rings see them.
 Map ring_heights(const HeightPyramid& pyramid, int l, float peak_share) {
   const HeightPyramid::Level& blocks = pyramid.levels[static_cast<std::size_t>(l) - 1];
   Map heights(blocks.mean.width, blocks.mean.height);
@@ -23,7 +23,7 @@ Map ring_heights(const HeightPyramid& pyramid, int l, float peak_share) {
   return heights;
 }
 
-/// Of a level of a window, margin included, what rings see.
+/// The same for a level of a window, margin included.
 Map ring_heights(const Surroundings::Level& blocks, float peak_share) {
   Map heights = blocks.mean;
   for_texels(heights, [&](std::size_t i) {
@@ -33,7 +33,7 @@ Map ring_heights(const Surroundings::Level& blocks, float peak_share) {
   return heights;
 }
 
-/// Missing ones as heights that stand in nobody's way.
+/// Replaces missing samples by heights that occlude nothing.
 Map sample_heights(Map heights) {
   for_texels(heights, [&](std::size_t i) {
     if (std::isnan(heights.values[i])) heights.values[i] = kNoHeight;
@@ -41,8 +41,8 @@ Map sample_heights(Map heights) {
   return heights;
 }
 
-/// Each height and kLift of what the highest around it has above it, of all but `beside` blocks of the
-/// level's margin, at least 1. Where nothing is, nothing is lifted.
+/// Each height, raised by kLift of what the highest around it has above it. The result lacks the outermost
+/// `beside` blocks of the level's margin, at least 1. Where there is nothing, nothing is lifted.
 Map lifted_heights(const FieldPyramid::Level& level, int beside) {
   const int margin = level.margin - beside;
   Map lifted(level.width + 2 * margin, level.height + 2 * margin);
@@ -62,7 +62,7 @@ Map lifted_heights(const FieldPyramid::Level& level, int beside) {
   return lifted;
 }
 
-/// A level of a window with a margin of `wanted` blocks, out of those that hold more.
+/// Cuts the margin of a level of a window from `margin` down to `wanted` blocks.
 Map with_margin(const Map& level, int margin, int wanted) {
   const int left_out = margin - wanted;
   assert(left_out >= 0);
@@ -80,7 +80,7 @@ void fill_from_surroundings(const Surroundings& around, int rings, float peak_sh
     const Map heights = l == 0 ? sample_heights(level.mean) : ring_heights(level, peak_share);
     scene.heights.take_level(l, with_margin(heights, around.margin, margin));
   }
-  // The margin's outermost samples, which nothing but the padding of vectors reads, stay as they are.
+  // The outermost samples of the margin are not lifted: only the padding of vector loads reads them.
   const Map inner = lifted_heights(scene.heights.level(0), 1);
   Map lifted = with_margin(sample_heights(around.levels[0].mean), around.margin, margin);
   for (int row = 0; row < inner.height; ++row) std::copy_n(&inner(row, 0), inner.width, &lifted(row + 1, 1));

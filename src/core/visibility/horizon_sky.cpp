@@ -39,7 +39,7 @@ void for_receivers(const WalkTile& tile, const Map& map, Write&& write) {
   }
 }
 
-/// Walks every other azimuth, then the rest where `full_from` tells to.
+/// Walks every other azimuth, then the rest in the blocks whose surface_share is at least `full_from`.
 void walk_sparsely(const Route& route, double full_from, Workspace& work) {
   for (std::size_t k = 0; k < route.azimuths.size(); k += 2) walk_azimuth(route.azimuths[k], work);
   for (std::size_t block = 0; block < work.sums.blocks.size(); ++block) {

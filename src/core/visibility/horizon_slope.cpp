@@ -6,9 +6,10 @@
 namespace heightlight {
 namespace {
 
-/// Slope to the place where the stretch between two points leaves the sphere of the maximum distance, if it
-/// does and ends above or beyond it; else −∞. The line p + g t meets the sphere where (1 + g²) t² + 2 p g t +
-/// p² = D².
+/// Slope to the place where a stretch leaves the sphere of the maximum distance, given that it ends outside.
+/// kNoHeight where there is no such place, or none that could be the horizon: where the stretch begins above
+/// the sphere or behind a hole, or where its slope only falls. The line p + g t meets the sphere where (1 +
+/// g²) t² + 2 p g t + p² = D².
 float exit_slope(const ProfilePoint& begin, const ProfilePoint& end, const DistanceTable& maximum_distance) {
   const bool above = begin.rise > 0 && begin.squared() > maximum_distance.squared;
   if (begin.rise <= maximum_distance.deepest || above) return kNoHeight;
@@ -16,7 +17,7 @@ float exit_slope(const ProfilePoint& begin, const ProfilePoint& end, const Dista
   const float p = begin.rise - g * begin.way;
   const float u = 1 + g * g;
   const float root = maximum_distance.squared * u - p * p;
-  if (root < 0 || p >= 0) return kNoHeight;  // p ≥ 0: from the beginning on it only falls
+  if (root < 0 || p >= 0) return kNoHeight;  // p ≥ 0: the slope p/t + g only falls
   const float way = (std::sqrt(root) - p * g) / u;
   constexpr float kRounding = 1e-5F;
   if (way < begin.way * (1 - kRounding) || way > end.way * (1 + kRounding)) return kNoHeight;

@@ -9,12 +9,12 @@
 #include "visibility/distance_table.h"
 #include "visibility/far_view.h"
 
-// Means over azimuths of what terrain science makes of a horizon (SkyDefinition). Walks start with no horizon
-// at all, not at the tangent plane, so that it stands where the surface has it.
+// Means over azimuths of the functions of the horizon that terrain science uses (SkyDefinition). Walks start
+// with no horizon at all, not at the tangent plane: the horizon stands where the surface has it.
 
 namespace heightlight {
 
-/// Of what the means are, h the horizon's elevation above what is level.
+/// The function whose mean is taken. h is the horizon's elevation above what is level.
 enum class HorizonMean {
   squared_cosine,  ///< cos² h, h ≥ 0
   one_less_sine,   ///< 1 − sin h, h ≥ 0
@@ -23,16 +23,17 @@ enum class HorizonMean {
 };
 constexpr std::size_t kHorizonMeans = 4;
 
-/// Per mean, in that order.
+/// One value per HorizonMean, in that order.
 template <class T>
 using HorizonTerms = std::array<T, kHorizonMeans>;
 
-/// Slopes from here down are those of no surface: that of kNoHeight at the least weight and the farthest
-/// distance.
+/// Slopes at or below this one mean that there is no surface. It is the slope of kNoHeight at the least
+/// weight and the farthest distance.
 constexpr float kNoSlope = -1e9F;
 
-/// What one azimuth adds to a mean, of a horizon that is seen under `slope`, where the tangent plane is under
-/// `tangent`, both above what is level: that plane stands for a horizon where there is none.
+/// What one azimuth adds to a mean. The horizon is seen under `slope` and the tangent plane under `tangent`,
+/// both above what is level. Where there is no horizon, zenith_angle takes the tangent plane, and the other
+/// means take h = 0.
 template <class T>
 T horizon_term(HorizonMean mean, T slope, T tangent) {
   const T m = std::max(slope, T{0});
@@ -49,7 +50,7 @@ T horizon_term(HorizonMean mean, T slope, T tangent) {
   }
 }
 
-/// To each of the means.
+/// What one azimuth adds to each of the means.
 template <class T>
 HorizonTerms<T> horizon_terms(T slope, T tangent) {
   return {horizon_term(HorizonMean::squared_cosine, slope, tangent),
@@ -58,20 +59,21 @@ HorizonTerms<T> horizon_terms(T slope, T tangent) {
           horizon_term(HorizonMean::zenith_angle, slope, tangent)};
 }
 
-/// Sums of these over the azimuths walked so far, per receiver of a tile.
+/// Sums of horizon terms over the azimuths walked so far, per receiver of a tile.
 struct HorizonSums {
   alignas(64) HorizonTerms<std::array<float, WalkTile::kTexels>> of{};
 };
 
-/// Walks one azimuth from every receiver of the tile. The readable one.
+/// Walks one azimuth from every receiver of the tile. The readable implementation.
 void add_horizons_scalar(const WalkTile& tile, const AzimuthTable& azimuth, const FarView& far,
                          HorizonSums& sums);
 
-/// Likewise, with occluders only as far as a maximum distance, which is taken to be sharp.
+/// As add_horizons_scalar, but only occluders within a maximum distance count; it is taken to be sharp.
 void add_horizons_within_scalar(const WalkTile& tile, const AzimuthTable& azimuth,
                                 const DistanceTable& maximum_distance, HorizonSums& sums);
 
-/// The fast ones: receivers side by side. The same sums, as those of sky walks are.
+/// The fast implementations, with receivers side by side. Their sums agree as closely as those of sky walks
+/// do (sky_walk.h).
 void add_horizons(const WalkTile& tile, const AzimuthTable& azimuth, const FarView& far, HorizonSums& sums);
 void add_horizons_within(const WalkTile& tile, const AzimuthTable& azimuth,
                          const DistanceTable& maximum_distance, HorizonSums& sums);

@@ -4,7 +4,7 @@
 namespace heightlight {
 namespace {
 
-/// Adds the terms of horizons that horizon(i, j) finds.
+/// Adds the terms of each receiver's horizon, whose slope horizon(i, j) returns.
 template <class Horizon>
 void add_terms(const WalkTile& tile, const AzimuthTable& azimuth, HorizonSums& sums, Horizon&& horizon) {
   for (int i = 0; i < tile.rows; ++i) {

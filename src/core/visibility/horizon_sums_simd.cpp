@@ -1,4 +1,5 @@
-// The lanes of the vector hold neighbouring receivers of a row. The arithmetic is horizon_terms'.
+// The lanes of the vector hold neighbouring receivers of a row. The arithmetic is the same as in
+// horizon_terms.
 
 #include "visibility/horizon_sums.h"
 
@@ -22,7 +23,7 @@ HWY_INLINE HorizonTerms<VF> lane_terms(VF slope, VF tangent) {
   return {hn::Mul(cosine, cosine), hn::Sub(one, sine), cosine, horizon.from_zenith};
 }
 
-/// Adds the terms of horizons that look(walk, bunch) finds.
+/// Adds the terms of the horizons that look(walk, bunch) finds.
 template <class Look>
 HWY_INLINE void add_terms(const WalkTile& tile, const AzimuthTable& azimuth, HorizonSums& sums, Look&& look) {
   const LaneWalk walk(tile, azimuth);
@@ -46,7 +47,7 @@ HWY_INLINE void add_terms(const WalkTile& tile, const AzimuthTable& azimuth, Hor
 
 void add_horizons_lanes(const WalkTile& tile, const AzimuthTable& azimuth, const FarView& far,
                         HorizonSums& sums) {
-  // A vector spans whole groups.
+  // A vector must span whole groups.
   if constexpr (hn::MaxLanes(kF) < WalkTile::kGroup) return add_horizons_scalar(tile, azimuth, far, sums);
   add_terms(tile, azimuth, sums, [&](const LaneWalk& walk, Bunch& bunch) HWY_ATTR {
     walk.look_near(bunch);

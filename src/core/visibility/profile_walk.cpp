@@ -18,7 +18,7 @@ struct Breakpoint {
 
 double clamp_unit(double value) { return std::min(std::max(value, 0.0), 1.0); }
 
-/// The four corners of a cell above the receiver.
+/// Heights of the four corners of a cell above the receiver.
 struct Cell {
   double upper_left, upper_right, lower_left, lower_right;
 
@@ -40,7 +40,7 @@ struct Cell {
     lower_right = double{lower[right]} - height;
   }
 
-  /// On the diagonal; a hole where one of its ends is missing.
+  /// Height on the diagonal; NaN where one of its ends is missing.
   double rise_on_diagonal(double across) const { return upper_left + across * (lower_right - upper_left); }
 
   /// Is one of the facet's samples missing?
@@ -49,8 +49,8 @@ struct Cell {
   }
 };
 
-/// A side of a cell: a column's line or a row's, the one with the larger index (right, lower) or the smaller.
-/// The right and upper sides belong to the upper right facet.
+/// A side of a cell: it lies on a column's or a row's line, the one with the larger index (right, lower) or
+/// the smaller. The right and upper sides belong to the upper right facet.
 struct Side {
   bool of_column;
   bool larger;
@@ -65,16 +65,16 @@ struct Side {
   }
 };
 
-/// Progress along one axis. Lines are the columns (or rows); they are counted from the receiver on, which
-/// stands on line 0.
+/// Progress along one axis. Lines are the columns (or rows), counted from the receiver, which stands on line
+/// 0.
 struct Axis {
-  double speed;     // |g|, lines per way
-  double per_line;  // way per line; ∞ where the profile runs along one
+  double speed;     // |g|, lines per world unit of way
+  double per_line;  // way from line to line; ∞ where the profile runs along one
   bool rising;      // towards larger indices
-  int cells;        // of the map
+  int cells;        // number of cells of the map
   int origin;       // the receiver's line, moved by whole tiles when the profile wraps
-  int cell;         // where the profile is
-  int crossed = 0;  // lines crossed
+  int cell;         // index of the cell where the profile is
+  int crossed = 0;  // number of lines crossed
 
   Axis(double step, int start, int cell_count)
       : speed(std::fabs(step)),
@@ -85,7 +85,7 @@ struct Axis {
         origin(start),
         cell(rising ? start : start - 1) {}
 
-  /// The line by which a block of 2^level cells is left.
+  /// The line by which the walk leaves a block of 2^level cells.
   int exit_line(int level) const {
     const int first = cell & ~((1 << level) - 1);
     return rising ? std::min(first + (1 << level), cells) - origin : origin - first;
@@ -93,7 +93,7 @@ struct Axis {
 
   double way_to(int line) const { return line * per_line; }
 
-  /// Share of the present cell behind the profile after some way, as the cell's own coordinate.
+  /// The profile's place in the present cell after some way, as the cell's own coordinate in [0, 1].
   double coordinate(double way) const {
     const double covered = clamp_unit(way * speed - crossed);
     return rising ? covered : 1 - covered;
@@ -104,7 +104,7 @@ struct Axis {
     cell = rising ? origin + lines : origin - 1 - lines;
   }
 
-  /// Counts the lines crossed after some way, among them one that is just reached or not.
+  /// Counts the lines crossed after some way. `including` says whether a line that is just reached counts.
   void follow(double way, bool including) {
     int lines = std::max(crossed, static_cast<int>(way * speed));
     const auto is_behind = [&](int line) { return including ? way_to(line) <= way : way_to(line) < way; };
@@ -113,7 +113,7 @@ struct Axis {
     set_crossed(lines);
   }
 
-  /// Does leaving by that line leave the block's parent, too?
+  /// Does the walk also leave the block's parent when it leaves the block by that line?
   bool leaves_parent(int line, int level) const {
     const int border = rising ? origin + line : origin - line;
     return (border & ((2 << level) - 1)) == 0 || border == cells;
@@ -129,7 +129,7 @@ struct Axis {
     origin += tile;
   }
 
-  /// Way across kMostWraps tiles, or as far as the counts of lines go.
+  /// Way across kMostWraps tiles, limited by the number of lines that can be counted.
   double way_across_tiles() const { return std::min(double{kMostWraps} * cells, kMostLines) / speed; }
 };
 
@@ -156,7 +156,7 @@ class Walk {
       const int line_v = v_.exit_line(level);
       const bool by_column = u_.way_to(line_u) <= v_.way_to(line_v);
       const double exit = by_column ? u_.way_to(line_u) : v_.way_to(line_v);
-      // Below the pyramid's first level, its blocks bound their parts, too.
+      // Below the pyramid's first level, the blocks of that level bound their parts, too.
       const int bounding = std::max(level, grid_.first_level);
       const std::int32_t block = grid_.pyramid->index(bounding, v_.cell, u_.cell);
       const double highest = double{grid_.pyramid->highest[static_cast<std::size_t>(block)]} - height_;
@@ -183,7 +183,7 @@ class Walk {
     return u_.is_on_map() && v_.is_on_map();
   }
 
-  /// Of a column and a row reached at once, the column counts as crossed first.
+  /// Where a column and a row are reached at once, the column counts as crossed first.
   void advance(bool by_column, int line, double exit) {
     way_ = exit;
     entry_ = {by_column, by_column ? !u_.rising : !v_.rising};
@@ -200,11 +200,12 @@ class Walk {
     return side.rise(cell, side.of_column ? v_.coordinate(way) : u_.coordinate(way));
   }
 
-  /// The cell's breakpoints: where it is entered, its diagonal, and where it is left.
+  /// Looks at the cell's breakpoints: where the cell is entered, its diagonal, and where it is left.
   void look_at_cell(const Side& exit_side, double exit) {
     const Cell cell(grid_, height_, v_.cell, u_.cell);
     const bool at_receiver = way_ == 0;
-    // From the vertex, the profile runs into the facet that it also leaves unless the diagonal is in between.
+    // From the vertex, the profile runs into the facet by which it also leaves the cell, unless the diagonal
+    // is in between.
     const bool same_sense = u_.rising == v_.rising;
     const bool starts_upper_right =
         at_receiver ? (same_sense ? exit_side.is_upper_right() : !u_.rising) : entry_.is_upper_right();
@@ -222,7 +223,7 @@ class Walk {
     look_at_segment(before, {exit, rise_on(cell, exit_side, exit)}, exit_side.is_upper_right());
   }
 
-  /// A breakpoint that comes out of a hole is seen, if it is in sight, down to the slope so far.
+  /// A breakpoint that comes out of a hole and is in sight is seen down to the slope so far.
   void look_at_hole_edge(const Breakpoint& point) {
     if (point.slope() > slope_)
       see(point.slope(), point.way, point.way, place_at(point.way), place_at(point.way));
@@ -241,7 +242,8 @@ class Walk {
       const SurfacePoint middle = upper_right ? place(kTwoThirds, kOneThird) : place(kOneThird, kTwoThirds);
       return see(after.slope(), after.way, after.way, middle, middle);
     }
-    // The segment comes up over the steepest slope so far, or over the tangent plane, where d turns positive.
+    // The visible part begins where the segment rises above both the steepest slope so far and the least
+    // slope asked for: there, d turns positive.
     const double least = std::max(slope_, least_slope_);
     const double d_before = std::min(before.rise - least * before.way, 0.0);
     const double d_after = after.rise - least * after.way;
@@ -268,7 +270,7 @@ class Walk {
   double height_, maximum_distance_, least_slope_, per_diagonal_;
   std::vector<VisibleStretch>& seen_;
   Axis u_, v_;
-  Side entry_{};  // by which the present cell was entered
+  Side entry_{};  // by which side the present cell was entered
   double way_ = 0;
   double slope_ = -std::numeric_limits<double>::infinity();  // the steepest so far
 };

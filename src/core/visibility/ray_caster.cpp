@@ -24,7 +24,7 @@ HemisphereDirections make_directions(const RayOptions& options) {
 
 std::size_t padded(int rays) { return static_cast<std::size_t>(rays + kRayPadding); }
 
-/// From world axes to those of grid rays.
+/// Turns directions from world axes to those of grid rays.
 struct GridTurn {
   float per_x, per_y;
 
@@ -43,8 +43,8 @@ struct GridTurn {
   }
 };
 
-/// From where on each ray has nothing in its way: by the bounds of its quadrant, or because it is above the
-/// map's highest point, `above` the receiver.
+/// Finds from which way on each ray has nothing in its path: by the bounds of its quadrant, or because it is
+/// above the map's highest point, which is `above` higher than the receiver.
 void find_sky_ways(const SlopeBounds& bounds, float above, int count, RayWorkspace& workspace) {
   const float* step_u = workspace.step_u.data();
   const float* step_v = workspace.step_v.data();
@@ -57,7 +57,7 @@ void find_sky_ways(const SlopeBounds& bounds, float above, int count, RayWorkspa
     const float way = bounds.way[level];
     const std::array<float, 4> bound{bounds.slope[0][level], bounds.slope[1][level], bounds.slope[2][level],
                                      bounds.slope[3][level]};
-    for (int k = 0; k < count; ++k) {  // selections only, so that the compiler makes vectors of it
+    for (int k = 0; k < count; ++k) {  // only selections, so that the compiler vectorises the loop
       const float falling_rows = step_u[k] > 0 ? bound[1] : bound[0];
       const float rising_rows = step_u[k] > 0 ? bound[3] : bound[2];
       const float steepest = step_v[k] > 0 ? rising_rows : falling_rows;
@@ -141,7 +141,7 @@ void RayCaster::look_along(int row, int column, const std::vector<Eigen::Vector3
                            RayWorkspace& workspace, std::vector<char>& open) const {
   assert(directions.size() <= static_cast<std::size_t>(directions_.count));
   open.assign(directions.size(), 1);
-  if (pyramid_.levels == 0) return;  // no cells, nothing in the way
+  if (pyramid_.levels == 0) return;  // no cells: nothing occludes
   const GridTurn turn_to_grid(surface_.map.spacing);
   for (std::size_t k = 0; k < directions.size(); ++k) turn_to_grid.set_ray(k, directions[k], workspace);
   RayBundle bundle = bundle_of(row, column, static_cast<int>(directions.size()), workspace);
@@ -159,7 +159,7 @@ void RayCaster::view(int row, int column, RayWorkspace& workspace, ReceiverView&
   view.rays = directions_.count;
   view.weight_table = static_cast<std::uint8_t>(turn.table);
   view.weight = directions_.weight[static_cast<std::size_t>(turn.table)].data();
-  if (pyramid_.levels == 0) return;  // no cells, nothing in the way
+  if (pyramid_.levels == 0) return;  // no cells: nothing occludes
   const RayBundle bundle = aim(row, column, turn, workspace);
   traverse(grid_, bundle, {workspace.cell.data(), workspace.across.data(), workspace.down.data()});
   for (int k = 0; k < bundle.count; ++k) {

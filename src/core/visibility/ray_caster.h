@@ -32,27 +32,27 @@ class RayCaster {
   /// What the receiver at (row, column) sees. Safe to call from many threads with a workspace each.
   void view(int row, int column, RayWorkspace& workspace, ReceiverView& view) const;
 
-  /// The sky's share of that view where there is no sky below the horizontal: rays that miss and point there
-  /// count as hits.
+  /// The sky's share of `view` if there is no sky below the horizontal: rays that miss the surface and point
+  /// below the horizontal count as hits.
   SkyShare share_above_horizontal(int row, int column, const ReceiverView& view,
                                   RayWorkspace& workspace) const;
 
-  /// The grid rays of a receiver that is present, without the ways after which they are sure of the sky: what
-  /// another ray tracer needs to send the same rays.
+  /// The grid rays of a receiver that is present, without the ways after which they are sure to reach the
+  /// sky. This is what another ray tracer needs to send the same rays.
   RayBundle aim_directions(int row, int column, const LatticeTurn& turn, RayWorkspace& workspace) const;
 
-  /// Likewise, ready for `traverse`.
+  /// As aim_directions, but with `sky_way` set: ready for `traverse`.
   RayBundle aim(int row, int column, const LatticeTurn& turn, RayWorkspace& workspace) const;
 
-  /// Of unit vectors in world axes, at most rays() of them, those that nothing hides the sky in, as 1, the
-  /// rest as 0, from a receiver that is present.
+  /// Sets open[k] to 1 where a receiver that is present sees the sky in directions[k], and to 0 where the
+  /// surface hides it. Directions are unit vectors in world axes, at most rays() of them.
   void look_along(int row, int column, const std::vector<Eigen::Vector3f>& directions,
                   RayWorkspace& workspace, std::vector<char>& open) const;
 
   const RayGrid& grid() const { return grid_; }
 
  private:
-  /// The first `count` rays of the workspace.
+  /// The bundle of the first `count` rays of the workspace.
   RayBundle bundle_of(int row, int column, int count, const RayWorkspace& workspace) const;
   void find_sky_ways_of(RayBundle& bundle, RayWorkspace& workspace) const;
 

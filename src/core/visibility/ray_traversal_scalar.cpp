@@ -12,8 +12,8 @@ float away_from_zero(float step) {
   return std::fabs(step) < kLeastStep ? std::copysign(kLeastStep, step) : step;
 }
 
-/// The four heights of a cell above the receiver, and the surface over it. Differences come first, so that a
-/// large offset of the heights costs no digits.
+/// Heights of the four corners of a cell above the receiver, and the surface over the cell. Differences are
+/// taken first, so that a large offset of the heights costs no digits.
 struct Cell {
   float upper_left, upper_right, lower_left, lower_right;
 
@@ -59,7 +59,7 @@ struct Walker {
         column(step_u > 0 ? bundle.column : bundle.column - 1),
         row(step_v > 0 ? bundle.row : bundle.row - 1) {}
 
-  /// Brings a cell index that left the map back by a whole tile. False where nothing lies beyond.
+  /// Brings a cell index that has left the map back by a whole tile. Returns false where nothing lies beyond.
   bool wrap() {
     const bool outside = column < 0 || column >= grid.cell_columns || row < 0 || row >= grid.cell_rows;
     if (!outside) return true;
@@ -78,8 +78,8 @@ struct Walker {
   /// Height of the ray above the receiver.
   float rise_at(float way) const { return way * slope; }
 
-  /// Is the ray below the surface where it enters the cell (out of a hole), at its diagonal, or where it
-  /// leaves? Then sets the place.
+  /// Is the ray below the surface where it enters the cell (out of a hole), at the cell's diagonal, or where
+  /// it leaves the cell? If so, sets the place.
   bool blocked_in_cell(float s_exit, float& across, float& down) const {
     const Cell cell(grid, z0, row, column);
     const float left = static_cast<float>(column - origin_column);
@@ -114,7 +114,8 @@ struct Walker {
       down = upper_right ? kOneThird : kTwoThirds;
       return true;
     }
-    // Linear between d_before ≤ 0 and d_after > 0; at the later breakpoint where the earlier one is a hole.
+    // d is linear between d_before ≤ 0 and d_after > 0. If the earlier breakpoint is in a hole, the hit is at
+    // the later one.
     const float share = d_before <= 0 ? d_before / (d_before - d_after) : 1.0F;
     const float s_hit = s_before + share * (s_after - s_before);
     across = u_at(s_hit);
@@ -122,7 +123,7 @@ struct Walker {
     return true;
   }
 
-  /// Walks to the first place where the ray is blocked; kSky where there is none.
+  /// Walks to the first place where the ray is blocked. Returns its cell, or kSky where there is none.
   std::int32_t walk(float& across, float& down) {
     if (!wrap()) return kSky;
     for (;;) {

@@ -1,6 +1,6 @@
 // The lanes of the vector hold rays; each iteration moves every lane by one block of the pyramid. The
-// arithmetic is ray_traversal_scalar.cpp's, operation for operation and without fused multiply-add, so that
-// results are the same.
+// arithmetic is the same as in ray_traversal_scalar.cpp, operation for operation and without fused
+// multiply-add, so that results are the same.
 
 #include <algorithm>
 #include <cstddef>
@@ -28,9 +28,9 @@ constexpr F kF;
 constexpr I kI;
 constexpr int kMostLanes = HWY_MAX_BYTES / sizeof(float);
 
-// Looking into cells and refilling lanes cost more than a step, whether one lane needs them or all: lanes
-// wait until this many do: a fifth more rays per second on 8 lanes. (Two groups of lanes in turn, to hide
-// latency, brought nothing: instructions are the limit.)
+// Looking into cells and refilling lanes cost more than a step, and as much for one lane as for all. Lanes
+// therefore wait until this many need it: this gives a fifth more rays per second on 8 lanes. (Moving two
+// groups of lanes in turn, to hide latency, gained nothing: the number of instructions is the limit.)
 constexpr std::size_t kCellsDue = 3;
 constexpr std::size_t kRefillsDue = 2;
 
@@ -62,9 +62,9 @@ struct Lanes {
   const RayEnds& ends;
   VF step_u, step_v, slope, sky_way, per_u, per_v, per_diagonal, s;
   VI column, row, origin_column, origin_row, level, wraps;
-  VI level_offset;  // of the lane's pyramid level: following the level costs less than looking it up
+  VI level_offset;  // offset of the lane's level in the pyramid; updating it costs less than looking it up
   MI active;
-  int next = 0;  ///< ray to be given out
+  int next = 0;  ///< the next ray to give out
   HWY_ALIGN std::int32_t ray_of_lane[kMostLanes];
 
   Lanes(const RayGrid& g, const RayBundle& b, const RayEnds& e)
@@ -112,7 +112,7 @@ struct Lanes {
     level = hn::IfThenZeroElse(fresh, level);
     level_offset = hn::IfThenZeroElse(fresh, level_offset);
     wraps = hn::IfThenZeroElse(fresh, wraps);
-    // Going down the axis, the first cell is the one before the vertex.
+    // Where a ray runs to smaller indices, its first cell is the one before the vertex.
     const VI first_column =
         hn::Sub(set_int(bundle.column), hn::IfThenElseZero(to_int(hn::Le(step_u, hn::Zero(kF))), set_int(1)));
     const VI first_row =
@@ -121,7 +121,8 @@ struct Lanes {
     row = hn::IfThenElse(fresh, first_row, row);
   }
 
-  /// Brings lanes that left the map back by a whole tile; returns those beyond which nothing lies.
+  /// Brings lanes that have left the map back by a whole tile; returns the lanes for which nothing lies
+  /// beyond.
   MI wrap() {
     const VI columns = set_int(grid.cell_columns);
     const VI rows = set_int(grid.cell_rows);
@@ -203,7 +204,7 @@ struct Lanes {
     return blocked;
   }
 
-  /// Writes down the rays that ended, and marks their lanes as free.
+  /// Stores the results of the rays that have ended, and marks their lanes as free.
   void write_down(MI ends_here, MI hit, VF across, VF down) {
     HWY_ALIGN std::int32_t cell[kMostLanes];
     HWY_ALIGN float across_of_lane[kMostLanes];
@@ -226,7 +227,8 @@ struct Lanes {
 
   bool is_done() const { return hn::AllFalse(kI, active); }
 
-  /// Moves every lane by one block: to the sky, down into the block, to what is hit in its cell, or past it.
+  /// Moves every lane by one block: to the sky, down into the block, to the hit in the block's cell, or past
+  /// it.
   void step() {
     MI sky = wrap();
     const Block block = find_block();
@@ -263,12 +265,12 @@ struct Lanes {
   }
 
  private:
-  /// The block of the pyramid that a lane is in, in cells, and how the ray leaves it.
+  /// The block of the pyramid that a lane is in, in cells, and how the ray leaves the block.
   struct Block {
     VI left, top, right, bottom;
-    MI up_u, up_v;  ///< the ray runs to larger columns, rows
-    MI crosses_u;   ///< it leaves by a column's border
-    VI border;      ///< which
+    MI up_u, up_v;  ///< the ray runs to larger columns (u), rows (v)
+    MI crosses_u;   ///< the ray leaves by a column's border, not a row's
+    VI border;      ///< index of that border
     VF s_exit;
   };
 
@@ -297,7 +299,7 @@ struct Lanes {
     return hn::Add(level_offset, hn::Add(hn::Shl(hn::Shr(row, level), stride), hn::Shr(column, level)));
   }
 
-  /// Moves lanes into the cell beyond their block; returns those that left the block's parent too.
+  /// Moves lanes into the cell beyond their block; returns the lanes that have left the block's parent, too.
   MI advance(const Block& block, MI advances) {
     const VI one = set_int(1);
     const VI along_u = clamp_cell(origin_column, hn::Mul(block.s_exit, step_u), block.left, block.right);
@@ -315,7 +317,8 @@ struct Lanes {
     return hn::And(advances, hn::And(leaves_parent, hn::Lt(level, set_int(grid.pyramid->levels - 1))));
   }
 
-  /// The lower of the two levels between which a lane moves has the entries that its offset moves by.
+  /// When a lane changes its level, its offset changes by the number of entries of the lower of the two
+  /// levels.
   void change_level(MI descends, MI climbs) {
     const VI one = set_int(1);
     const VI lower_level = hn::Sub(level, hn::IfThenElseZero(descends, one));
@@ -326,8 +329,8 @@ struct Lanes {
     level_offset = hn::Sub(level_offset, hn::IfThenElseZero(descends, entries));
   }
 
-  /// `blocked_in_cell` for some lanes; the others look at the map's first cell, so that no index is out of
-  /// range.
+  /// Calls `blocked_in_cell` for some lanes. The others look at the map's first cell, so that no index is out
+  /// of range.
   MI enter_cells(MI at_cell, VF s_exit, VF& across, VF& down) {
     const VI keep_column = column;
     const VI keep_row = row;

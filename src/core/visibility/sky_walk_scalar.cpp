@@ -12,12 +12,12 @@ namespace {
 
 constexpr float kHalfPi = std::numbers::pi_v<float> / 2;
 
-/// What a slice sends from above slope m, in the plane of its azimuth; sky_walk.h derives it. Differences of
-/// two are what lies between their slopes.
+/// What a slice sends from above slope m, in the plane of its azimuth; sky_walk.h has the derivation. The
+/// difference of two such sums is what lies between their slopes.
 struct SliceSums {
   float sky = 0, solid = 0;
-  float along = 0, up = 0;             ///< wanted.first
-  float along_squared = 0, mixed = 0;  ///< wanted.second
+  float along = 0, up = 0;             ///< if wanted.first
+  float along_squared = 0, mixed = 0;  ///< if wanted.second
 };
 
 SliceSums integrate_slice(float c, float n_z, float m, const SkyWanted& wanted) {
@@ -56,21 +56,22 @@ void add(float share, const SliceSums& slice, SliceSums& sum) {
   sum.mixed += share * slice.mixed;
 }
 
-/// The slope halfway between two, by angle.
+/// The slope halfway between two slopes, by angle.
 float slope_between(float a, float b) {
   const float cosine_a = 1 / std::sqrt(1 + a * a);
   const float cosine_b = 1 / std::sqrt(1 + b * b);
   return (a * cosine_a + b * cosine_b) / (cosine_a + cosine_b);
 }
 
-/// μ at that share of the maximum distance, in [0, 1]; of a maximum distance with a falloff.
+/// μ of a falloff at a share in [0, 1] of the maximum distance.
 float openness(Falloff falloff, float share) {
   if (falloff == Falloff::root) return std::sqrt(share);
   return falloff == Falloff::exponential ? exponential_openness(share, 1.0F) : share;
 }
 
-/// Mean of μ over a stretch from `begin` to `end`, seen from slope m to `seen`: that under the angles a
-/// quarter and three quarters between, weighted as they light the receiver.
+/// Mean of μ over a stretch from `begin` to `end`, seen from slope m to `seen`. It is the mean of μ at a
+/// quarter and three quarters of the angle between them, weighted by what these directions add to the
+/// irradiance.
 float share_of_stretch(const ProfilePoint& begin, const ProfilePoint& end, float c, float n_z, float m,
                        float seen, const DistanceTable& maximum_distance) {
   if (begin.way == 0) return 0;  // the receiver's own facet: it is hit at once
@@ -80,7 +81,7 @@ float share_of_stretch(const ProfilePoint& begin, const ProfilePoint& end, float
   float weights = 1e-20F;
   float sum = 0;
   for (const float slope : {slope_between(m, middle), slope_between(middle, seen)}) {
-    // The line p + g t is under the slope there.
+    // The line p + g t is seen under that slope at t = meets.
     const float meets = slope < g ? -p / (g - slope) : begin.way;
     const float way =
         begin.rise <= maximum_distance.deepest ? end.way : std::clamp(meets, begin.way, end.way);
@@ -93,13 +94,13 @@ float share_of_stretch(const ProfilePoint& begin, const ProfilePoint& end, float
   return sum / weights;
 }
 
-/// Of a sharp maximum distance: the slopes between which a stretch lies inside its sphere, no less than m and
-/// no more than `seen`; equal where it lies outside. The line p + g t meets the sphere where (1 + g²) t² + 2
-/// p g t + p² = D².
+/// For a sharp maximum distance: the slopes between which a stretch lies inside its sphere. They are no less
+/// than m and no more than `seen`, and equal where the stretch lies outside. The line p + g t meets the
+/// sphere where (1 + g²) t² + 2 p g t + p² = D².
 std::pair<float, float> slopes_inside(const ProfilePoint& begin, const ProfilePoint& end, float m, float seen,
                                       const DistanceTable& maximum_distance) {
   if (begin.way == 0) return {m, seen};
-  // What stands behind a hole is seen at its end.
+  // A stretch that begins in a hole is seen at its end.
   if (begin.rise <= maximum_distance.deepest)
     return {m, end.squared() <= maximum_distance.squared ? seen : m};
   const float g = (end.rise - begin.rise) / run_between(begin.way, end.way);
@@ -115,7 +116,7 @@ std::pair<float, float> slopes_inside(const ProfilePoint& begin, const ProfilePo
   return {from, std::clamp(high, from, seen)};
 }
 
-/// The slice of a receiver with a maximum distance.
+/// The sums of a receiver's slice with a maximum distance.
 SliceSums slice_within(const WalkTile& tile, const AzimuthTable& azimuth,
                        const DistanceTable& maximum_distance, int i, int j, float c, float n_z, float lowest,
                        const SkyWanted& wanted) {
@@ -180,8 +181,8 @@ void add_slice(const AzimuthTable& azimuth, std::size_t at, const SliceSums& sli
   }
 }
 
-/// Calls slice_of(i, j, c, n_z, lowest) for every receiver of the tile and adds what it returns. Nothing
-/// below the slope `lowest` sends anything.
+/// Calls slice_of(i, j, c, n_z, lowest) for every receiver that walks, and adds the slice that it returns.
+/// Nothing below the slope `lowest` sends anything.
 template <class SliceOf>
 void for_receivers(const WalkTile& tile, const AzimuthTable& azimuth, SkySums& sums, SliceOf&& slice_of) {
   for (int i = 0; i < tile.rows; ++i) {
@@ -200,7 +201,7 @@ void for_receivers(const WalkTile& tile, const AzimuthTable& azimuth, SkySums& s
   }
 }
 
-/// Likewise, of what lies above horizon(i, j, lowest).
+/// Adds what lies above the slope that horizon(i, j, lowest) returns, for every receiver that walks.
 template <class Horizon>
 void add_above(const WalkTile& tile, const AzimuthTable& azimuth, SkySums& sums, Horizon&& horizon) {
   for_receivers(tile, azimuth, sums, [&](int i, int j, float c, float n_z, float lowest) {

@@ -1,4 +1,5 @@
-// The lanes of the vector hold neighbouring receivers of a row. The arithmetic is sky_walk_scalar.cpp's.
+// The lanes of the vector hold neighbouring receivers of a row. The arithmetic is the same as in
+// sky_walk_scalar.cpp.
 
 #include <algorithm>
 #include <cmath>
@@ -15,13 +16,13 @@
 #include <hwy/highway.h>
 
 #include "visibility/walk_lanes-inl.h"
-// After what tells it the instruction set.
+// Must follow the headers that select the instruction set.
 #include <hwy/contrib/math/math-inl.h>
 
 HWY_BEFORE_NAMESPACE();
 namespace heightlight::HWY_NAMESPACE {
 
-/// What slices send from above a slope; as in sky_walk_scalar.cpp.
+/// What slices send from above a slope; as SliceSums in sky_walk_scalar.cpp.
 struct SliceSums {
   VF sky, solid, along, up, along_squared, mixed;
 };
@@ -94,8 +95,8 @@ HWY_INLINE void add_slices(const WalkTile& tile, const AzimuthTable& azimuth, co
   }
 }
 
-/// Calls work(walk, bunch) for the receivers of the tile that walk, from the lowest slope on that sends
-/// anything.
+/// Calls work(walk, bunch) for the receivers of the tile that walk. The bunch starts at the lowest slope that
+/// sends anything.
 template <class Work>
 HWY_INLINE void for_bunches(const WalkTile& tile, const AzimuthTable& azimuth, const SkySums& sums,
                             Work&& work) {
@@ -114,7 +115,7 @@ HWY_INLINE void for_bunches(const WalkTile& tile, const AzimuthTable& azimuth, c
   }
 }
 
-/// Likewise, and adds what lies above the horizons that look(walk, bunch) finds.
+/// Adds what lies above the horizons that look(walk, bunch) finds, for the receivers that walk.
 template <class Look>
 HWY_INLINE void add_above(const WalkTile& tile, const AzimuthTable& azimuth, SkySums& sums, Look&& look) {
   for_bunches(tile, azimuth, sums, [&](const LaneWalk& walk, Bunch& bunch) HWY_ATTR {
@@ -130,7 +131,7 @@ HWY_INLINE void add_above(const WalkTile& tile, const AzimuthTable& azimuth, Sky
 }
 
 void walk_sky_lanes(const WalkTile& tile, const AzimuthTable& azimuth, const FarView& far, SkySums& sums) {
-  // A vector spans whole groups.
+  // A vector must span whole groups.
   if constexpr (hn::MaxLanes(kF) < WalkTile::kGroup) return walk_sky_scalar(tile, azimuth, far, sums);
   add_above(tile, azimuth, sums, [&](const LaneWalk& walk, Bunch& bunch) HWY_ATTR {
     walk.look_near(bunch);
@@ -145,13 +146,14 @@ HWY_INLINE VF slope_between(VF a, VF b) {
   return hn::Div(hn::MulAdd(a, cosine_a, hn::Mul(b, cosine_b)), hn::Add(cosine_a, cosine_b));
 }
 
-/// A stretch of the profile, per receiver: share_of_stretch of sky_walk_scalar.cpp has the names.
+/// A stretch of the profile, per receiver: from the way `before`, where it is `begin` higher than the
+/// receiver, to `way`, where it is `rise` higher.
 struct Stretch {
   VF begin, rise;
   float before, way;
 };
 
-/// openness of sky_walk_scalar.cpp.
+/// As openness in sky_walk_scalar.cpp.
 VF openness(Falloff falloff, VF share) {
   if (falloff == Falloff::root) return hn::Sqrt(share);
   if (falloff != Falloff::exponential) return share;
@@ -160,7 +162,7 @@ VF openness(Falloff falloff, VF share) {
   return hn::Mul(hn::Sub(hn::Set(kF, 1.0F), fallen), hn::Set(kF, -1 / std::expm1(-kRate)));
 }
 
-/// Mean of μ over stretches seen from slope m to `seen`.
+/// Mean of μ over stretches seen from slope m to `seen`; as share_of_stretch in sky_walk_scalar.cpp.
 HWY_INLINE VF share_of_stretches(const Stretch& stretch, VF c, VF n_z, VF m, VF seen,
                                  const DistanceTable& maximum_distance) {
   if (stretch.before <= 0) return hn::Zero(kF);
@@ -192,7 +194,7 @@ HWY_INLINE VF share_of_stretches(const Stretch& stretch, VF c, VF n_z, VF m, VF 
   return hn::Div(sum, weights);
 }
 
-/// Of a sharp maximum distance: slopes_inside of sky_walk_scalar.cpp.
+/// For a sharp maximum distance; as slopes_inside in sky_walk_scalar.cpp.
 struct SlopePair {
   VF low, high;
 };
@@ -239,7 +241,7 @@ HWY_INLINE void walk_chain(const WalkTile& tile, const AzimuthTable& azimuth,
     const auto see = [&](std::size_t v, VF begin, float before, VF rise, float way, VF seen) HWY_ATTR {
       const VF m = bunch.slope[v];
       if (hn::AllFalse(kF, hn::Gt(seen, m))) return;
-      const VF higher = hn::Max(m, seen);  // where nothing rises, what is between both is nothing
+      const VF higher = hn::Max(m, seen);  // where nothing rises, nothing lies between `m` and `higher`
       const SliceSums next = integrate_sums(c[v], n_z[v], higher, sums.wanted);
       if (maximum_distance.falloff != Falloff::none) {
         const VF share =

@@ -10,7 +10,8 @@
 //     n·ω = c cosθ + n_z sinθ.
 // It is positive above the tangent plane's elevation, tanθ₀ = −c/n_z. All integrals below have n_z ≥ 0.
 //
-// Elevations come as sine and cosine: near the zenith the small cosine keeps the digits that the angle loses.
+// Elevations are given as sine and cosine: near the zenith the small cosine keeps the digits that the angle
+// loses.
 
 namespace heightlight {
 namespace {
@@ -20,8 +21,8 @@ double one_minus_sine(const Elevation& elevation) {
   return elevation.sine > 0 ? elevation.cosine * elevation.cosine / (1 + elevation.sine) : 1 - elevation.sine;
 }
 
-/// δ − sinδ for 0 ≤ δ ≤ π/2. Where δ is small it is the series of arcsin s − s, whose next term is below
-/// 10⁻¹⁵ of the sum.
+/// δ − sinδ for 0 ≤ δ ≤ π/2. For small δ it is summed as the series of arcsin s − s, the next term of which
+/// is below 10⁻¹⁵ of the sum.
 double angle_minus_sine(double sine, double cosine) {
   if (sine > 0.1) return std::atan2(sine, cosine) - sine;
   constexpr double kSeries[] = {135135.0 / 9676800, 10395.0 / 599040, 945.0 / 42240, 105.0 / 3456,
@@ -32,7 +33,7 @@ double angle_minus_sine(double sine, double cosine) {
   return sum * squared * sine;
 }
 
-/// On the tangent plane rounding may leave the cosine a hair below 0.
+/// On the tangent plane, rounding may leave the cosine slightly below 0.
 double clamp_cosine(double cosine) { return std::max(cosine, 0.0); }
 
 }  // namespace
@@ -52,12 +53,12 @@ double tangent_slope(const SliceNormal& normal) {
 //     sin b cos b − sin a cos a = sinδ cosσ,   sin²b − sin²a = sinδ sinσ,
 // so that the mass is
 //     (sinδ (c cosσ + n_z sinσ) + c δ) / 2.
-// In a deep shaft, where n_z and the cosines of a and b are small, its terms are far larger than their sum.
+// In a deep shaft, where n_z and the cosines of a and b are small, these terms are far larger than their sum.
 // With p = cos a + cos b and q = sin a + sin b, which give 1 + cosσ = p²/(1 + cosδ) and sinσ = p q/(1 +
 // cosδ), the same is
 //     (sinδ/(1 + cosδ) p (c p + n_z q) + c (δ − sinδ)) / 2,
-// where p keeps the digits. It serves up to δ = π/2; wider intervals begin below the horizontal, and nothing
-// cancels in the first form.
+// where p keeps the digits. This form is used up to δ = π/2. Wider intervals begin below the horizontal, and
+// for them nothing cancels in the first form.
 double cosine_mass(const SliceNormal& normal, const Elevation& from, const Elevation& to) {
   const double c = normal.along;
   const double sine_delta = to.sine * from.cosine - to.cosine * from.sine;

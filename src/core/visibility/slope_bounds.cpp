@@ -8,8 +8,8 @@ namespace {
 
 constexpr float kRounding = 1.000001F;  // bounds round up
 
-/// Levels whose blocks fit into the map a whole number of times where it tiles; narrower blocks at a seam
-/// would cover less than they should.
+/// Number of levels whose blocks, where the map tiles, fit into it a whole number of times; narrower blocks
+/// at a seam would cover less than they should.
 int aligned_levels(const RayGrid& grid) {
   if (!grid.tiles) return grid.pyramid->levels;
   int levels = 1;
@@ -20,7 +20,7 @@ int aligned_levels(const RayGrid& grid) {
   return levels;
 }
 
-/// Highest point of a block `by_rows`, `by_columns` blocks away; −∞ where the map has ended.
+/// Highest point of the block that is `by_rows`, `by_columns` blocks away; −∞ beyond the end of the map.
 float block_highest(const RayGrid& grid, int level, int row, int column, int by_rows, int by_columns) {
   int i = row + by_rows * (1 << level);
   int j = column + by_columns * (1 << level);
@@ -33,11 +33,12 @@ float block_highest(const RayGrid& grid, int level, int row, int column, int by_
   return grid.pyramid->highest[static_cast<std::size_t>(grid.pyramid->index(level, i, j))];
 }
 
-/// Highest point, by quadrant, of the blocks around the vertex. A block that begins at the vertex has nothing
-/// before it.
+/// Highest point of the blocks around the vertex, per quadrant. If a block begins at the vertex, no part of
+/// it lies before the vertex.
 std::array<float, 4> quadrants_highest(const RayGrid& grid, int level, int row, int column) {
   const int within = (1 << level) - 1;
-  // The vertex's block is that of the cell behind it; on an open map's last line, of the cell before.
+  // The vertex's block is the block of the cell behind it, or on an open map's last line, of the cell before
+  // it.
   const int cell_row = std::min(row, grid.cell_rows - 1);
   const int cell_column = std::min(column, grid.cell_columns - 1);
   const bool begins_row = (row & within) == 0 && cell_row == row;
@@ -77,7 +78,7 @@ SlopeBounds bound_slopes(const RayGrid& grid, int row, int column, float height)
     const std::array<float, 4> highest = quadrants_highest(grid, level, row, column);
     for (std::size_t q = 0; q < 4; ++q) bounds.slope[q][l] = slope_to(highest[q], distance);
   }
-  // Past the last level, the whole map's highest point.
+  // The last entry bounds what is beyond all levels, by the whole map's highest point.
   const auto last = static_cast<std::size_t>(levels);
   const float distance = static_cast<float>(1 << (levels - 1));
   bounds.way[last] = kSqrt2 * kRounding * distance;

@@ -15,11 +15,11 @@ struct ProductTerm {
   double value = 0;
 };
 
-/// Those that are not 0.
+/// All terms that are not 0.
 const std::vector<ProductTerm>& product_terms();
 
-/// ∫ a b c dω of three functions by their harmonics (the triple product of Snyder 2006): term by term, each
-/// with all orders of its three harmonics.
+/// ∫ a b c dω of three functions, given by their harmonics (the triple product of Snyder 2006). It is a sum
+/// over the terms, each in all orders of its three harmonics.
 template <class Real>
 Real triple_product(const NineHarmonics<Real>& a, const NineHarmonics<Real>& b,
                     const NineHarmonics<Real>& c) {

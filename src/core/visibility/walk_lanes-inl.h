@@ -1,4 +1,4 @@
-// How vector kernels walk: included once per target, by the files that Highway compiles for each.
+// The walk of vector kernels. Included once per target, by the files that Highway compiles for each target.
 
 #if defined(HEIGHTLIGHT_WALK_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef HEIGHTLIGHT_WALK_LANES_INL_H
@@ -21,7 +21,7 @@ HWY_BEFORE_NAMESPACE();
 namespace heightlight::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// At most four groups of receivers in a vector.
+// A vector holds the receivers of at most four groups.
 using F = hn::CappedTag<float, std::size_t{4} * WalkTile::kGroup>;
 using I = hn::RebindToSigned<F>;
 using VF = hn::Vec<F>;
@@ -29,12 +29,12 @@ using VI = hn::Vec<I>;
 constexpr F kF;
 constexpr I kI;
 
-/// Rows walked together, those of a group: what is fetched for one of them serves all.
+/// Number of rows walked together: the rows of a group. What is fetched for one row serves all of them.
 constexpr std::size_t kBunch = WalkTile::kGroup;
 
-/// Neighbouring receivers on their way, a vector in each row.
+/// Neighbouring receivers during a walk: one vector per row.
 struct Bunch {
-  int row = 0;  ///< in the tile, of the first
+  int row = 0;  ///< row of the first receiver in the tile
   int column = 0;
 
   /// Index of vector v in the tile's arrays.
@@ -44,7 +44,7 @@ struct Bunch {
   std::array<VF, kBunch> height, tangent, slope;
 };
 
-/// Twice a slice's irradiance and its solid angle above a horizon; sky_walk.h has the derivation.
+/// Above a horizon: twice a slice's irradiance, and its solid angle. sky_walk.h has the derivation.
 struct Slice {
   VF sky, solid;
 };
@@ -59,7 +59,7 @@ HWY_INLINE Slice integrate_slice(VF c, VF n_z, const Elevation<VF>& horizon) {
   return {hn::MulAdd(c, zenith_part(horizon), hn::Mul(n_z, q)), hn::Sub(hn::Set(kF, 1.0F), horizon.sine)};
 }
 
-/// Twice a slice's moments above a horizon: of ω along d and z, and of its squares along d d and d z.
+/// Twice a slice's moments above a horizon: of ω along d and z, and of ω_d² and ω_d ω_z.
 struct FirstMoments {
   VF along, up;
 };
@@ -110,7 +110,7 @@ class LaneWalk {
     return bunch;
   }
 
-  /// Of what is level at the receivers of vector v.
+  /// Slope of what is level at each receiver of vector v.
   VF level_slope(const Bunch& bunch, std::size_t v) const {
     const std::size_t at = bunch.at(v);
     return hn::MulAdd(hn::Load(kF, tile_.level_x.data() + at), hn::Set(kF, azimuth_.world_x),
@@ -123,8 +123,8 @@ class LaneWalk {
     });
   }
 
-  /// Near samples within a maximum distance, and the places where the stretches between them leave its
-  /// sphere.
+  /// Looks at the near samples within a maximum distance, and at the places where the stretches between them
+  /// leave its sphere.
   void look_near_within(const DistanceTable& maximum_distance, Bunch& bunch) const {
     std::array<VF, kBunch> begin_rise;
     begin_rise.fill(hn::Zero(kF));
@@ -150,7 +150,7 @@ class LaneWalk {
     });
   }
 
-  /// Rings within a maximum distance, from every receiver for itself.
+  /// Looks at the rings within a maximum distance, from every receiver separately.
   void look_at_rings_within(const DistanceTable& maximum_distance, Bunch& bunch) const {
     for_ring_samples(bunch, maximum_distance,
                      [&](const RingSample&, float cap, std::size_t v, VF seen) HWY_ATTR {
@@ -159,8 +159,8 @@ class LaneWalk {
   }
 
   /// Calls see(v, begin, before, rise, way, slope) for every stretch of the profile that begins within a
-  /// maximum distance: from `before`, where it is `begin` higher than the receiver, to `way`, where it is
-  /// `rise` higher and seen under the slope.
+  /// maximum distance. The stretch leads from the way `before`, where it is `begin` higher than the receiver,
+  /// to `way`, where it is `rise` higher than the receiver and is seen under `slope`.
   template <class See>
   HWY_INLINE void for_stretches(const DistanceTable& maximum_distance, const Bunch& bunch, See&& see) const {
     std::array<VF, kBunch> begin_rise;
@@ -181,7 +181,7 @@ class LaneWalk {
                          HWY_ATTR { end_at(1 / sample.per_distance, v, seen); });
   }
 
-  /// The lines that the groups of the bunch keep.
+  /// Looks at the lines that the groups of the bunch keep (far_view.h).
   void look_far(const FarView& far, Bunch& bunch) const {
     constexpr int kSide = WalkTile::kGroup;
     constexpr int kMiddle = kSide / 2;
@@ -189,7 +189,7 @@ class LaneWalk {
     const auto order = hn::IndicesFromVec(kF, hn::ShiftRight<2>(hn::Iota(kI, 0)));
     const auto at =
         static_cast<std::size_t>(bunch.row / kSide * (WalkTile::kSide / kSide) + bunch.column / kSide);
-    // World distance from the look-out, in the middle of the group, to the receiver, along the azimuth.
+    // World distance along the azimuth from the texel in the group's middle to the receiver.
     const VF column =
         hn::ConvertTo(kF, hn::Sub(hn::And(hn::Iota(kI, 0), hn::Set(kI, kSide - 1)), hn::Set(kI, kMiddle)));
     std::array<VF, kBunch> nearer;
@@ -211,7 +211,7 @@ class LaneWalk {
     bunch.slope[v] = hn::Max(bunch.slope[v], hn::Mul(hn::Sub(height, bunch.height[v]), per_distance));
   }
 
-  /// Calls see(sample, v, slope) for the first near samples and each vector of the bunch.
+  /// Calls see(sample, v, slope) for the first `count` near samples and each vector of the bunch.
   template <class See>
   HWY_INLINE void for_near(const Bunch& bunch, std::size_t count, See&& see) const {
     const std::size_t lifted = std::min(count, azimuth_.lifted);
@@ -219,7 +219,7 @@ class LaneWalk {
     for_near_of(bunch, tile_.lifted, lifted, count, see);
   }
 
-  /// Likewise, for near samples `first` to `end`, of one window's heights.
+  /// As for_near, for near samples `first` to `end` only, which read the heights of one window.
   template <class See>
   HWY_INLINE void for_near_of(const Bunch& bunch, const HeightWindow& window, std::size_t first,
                               std::size_t end, See& see) const {
@@ -235,7 +235,7 @@ class LaneWalk {
         const VF above = hn::MulAdd(to_weight, to_height, hn::Mul(from_weight, from_height));
         see(sample, v, hn::NegMulAdd(per_distance, bunch.height[v], above));
       };
-      if (to - from == window.width) {  // what is below one row is the next one's own
+      if (to - from == window.width) {  // the lower sample of one row is the upper sample of the next
         VF own = hn::LoadU(kF, from);
         for (std::size_t v = 0; v < kBunch; ++v, to += window.width) {
           const VF below = hn::LoadU(kF, to);
@@ -249,7 +249,8 @@ class LaneWalk {
     }
   }
 
-  /// Of the stretch from (before, begin) to (way, rise): sky_walk_scalar.cpp derives it.
+  /// Slope at which the stretch from (before, begin) to (way, rise) leaves the sphere of the maximum
+  /// distance, kNoHeight where it does not: horizon_slope.cpp has the derivation.
   static VF exit_slope(VF begin, float before, VF rise, float way, VF squared) {
     constexpr float kRounding = 1e-5F;
     const VF g = hn::Mul(hn::Sub(rise, begin), hn::Set(kF, 1 / run_between(before, way)));
@@ -264,8 +265,8 @@ class LaneWalk {
   }
 
   /// Calls see(sample, cap, v, slope) for the ring samples within a maximum distance and each vector of the
-  /// bunch. Each receiver looks at its own block: neighbours in a vector share some, which is a permutation
-  /// of a load.
+  /// bunch. Each receiver looks at its own block. Neighbours in a vector share some blocks, so that one load,
+  /// permuted, gives all heights.
   template <class See>
   HWY_INLINE void for_ring_samples(const Bunch& bunch, const DistanceTable& maximum_distance,
                                    See&& see) const {

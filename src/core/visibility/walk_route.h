@@ -11,7 +11,7 @@
 
 namespace heightlight {
 
-/// An azimuth, and what of it lies within the maximum distance.
+/// The table of an azimuth, and the part of it that lies within the maximum distance, if there is one.
 struct RouteAzimuth {
   AzimuthTable table;
   std::optional<DistanceTable> maximum_distance;
@@ -23,17 +23,17 @@ struct Route {
   int rings = 0;
 };
 
-/// φ_k of the options, k = 0 … K − 1.
+/// φ_k of the options, k = 0 … K − 1, rad.
 std::vector<double> walked_azimuths(const WalkOptions& options);
 
-/// Along such azimuths, rad. Throws UsageError as check_maximum_distance does.
+/// Plans the route along the given azimuths (rad). Throws UsageError as check_maximum_distance does.
 Route plan_route(const Surface& surface, const WalkOptions& options, const std::vector<double>& azimuths,
                  const std::optional<MaximumDistance>& maximum_distance);
 
 /// All tiles of a map.
 std::vector<TileFrame> all_tiles(const Surface& surface);
 
-/// A walk from the receivers of some tiles, and what it is called.
+/// A walk from the receivers of some tiles, and the name under which its progress is reported.
 struct RouteStep {
   const Route& route;
   const std::vector<TileFrame>& tiles;

@@ -11,11 +11,11 @@
 namespace heightlight {
 namespace {
 
-/// Of a unit vector in the plane. An azimuth along an axis misses it by the rounding of π.
+/// A component of a unit vector in the plane. An azimuth along an axis misses the axis by the rounding of π.
 double snapped(double component) { return std::fabs(component) < 1e-15 ? 0.0 : component; }
 
-/// The sample at way t, where it is known on which line of the mesh that lies: between (row, column) and the
-/// next sample by (down, right), `share` of the way.
+/// The sample at way t on a known line of the mesh: between the sample at (row, column) and the next sample,
+/// which is (down, right) from it, at a `share` of the line between them.
 NearSample between(double t, double length, int row, int column, int down, int right, double share) {
   const double per_distance = 1 / (t * length);
   NearSample sample;
@@ -47,15 +47,15 @@ NearSample at_row(const GridDirection& g, double t, int row) {
   return between(t, g.length, row, static_cast<int>(column), 0, 1, u - column);
 }
 
-/// On the diagonal of column − row = i.
+/// The sample on the diagonal on which column − row = i.
 NearSample at_diagonal(const GridDirection& g, double t, int i) {
   const double v = t * g.v;
   const double row = std::floor(v);
   return between(t, g.length, static_cast<int>(row), static_cast<int>(row) + i, 1, 1, v - row);
 }
 
-/// Crossings with the lines i = ±1, ±2 … of one family, which `rate` of them a texel of way meets, in (from,
-/// to]: every `step`-th.
+/// Adds every `step`-th of the crossings in (from, to] with the lines i = ±1, ±2 … of one family. A texel of
+/// way meets `rate` of these lines.
 template <class At>
 void add_crossings(double rate, double from, double to, int step, std::vector<Crossing>& crossings, At&& at) {
   if (std::fabs(rate) < 1e-9) return;
@@ -66,7 +66,8 @@ void add_crossings(double rate, double from, double to, int step, std::vector<Cr
   }
 }
 
-/// Ways up to which all breakpoints are samples, all crossings with the rows or columns, and every other.
+/// Ways up to which samples are all breakpoints, all crossings with the rows or columns, and every other such
+/// crossing; texels.
 struct NearWays {
   double exact, dense, last;
 };

@@ -44,7 +44,8 @@ void place(HeightWindow& window, int level, int margin, int row, int column) {
   window.values.resize(static_cast<std::size_t>(across) * static_cast<std::size_t>(across) + kReadPadding);
 }
 
-/// Columns of the map that follow each other in a window, or columns where nothing is (map_column < 0).
+/// Consecutive columns of a window that are also consecutive in the map, or where nothing is (map_column <
+/// 0).
 struct ColumnRun {
   int map_column;
   int count;
@@ -74,7 +75,7 @@ void copy_heights(const float* heights, int count, float reference, float* out) 
   }
 }
 
-/// How the heights of blocks are made.
+/// How the heights of blocks are made: the share of the peak, and the reference that is subtracted.
 struct Blend {
   float peak_share;
   float reference;
@@ -105,8 +106,9 @@ void fill_nearest(HeightWindow& window, const Image<float>& heights, bool tiles,
   }
 }
 
-/// The same from what surrounds a window of the map, of samples or of blocks. What lies beyond its margin is
-/// seen from beyond the window alone, where the last tiles of a map may reach, and is left empty.
+/// Fills a window from the surroundings of a window of the map, with samples or with blocks. Beyond the
+/// margin of the surroundings it is left empty: that part is seen only from beyond the map's window, where
+/// the last tiles of a map may reach.
 void fill_from(const Surroundings& around, const Blend& blend, HeightWindow& window) {
   const Surroundings::Level& level = around.levels[static_cast<std::size_t>(window.level)];
   const int top = window.first_row - level.blocks.first_row;
@@ -155,7 +157,7 @@ void fill_blocks(HeightWindow& window, const HeightPyramid& pyramid, const Surfa
 void lift(const HeightWindow& samples, HeightWindow& lifted) {
   lifted = samples;
   const int width = samples.width;
-  std::vector<float> highest(static_cast<std::size_t>(width));  // of three in a column
+  std::vector<float> highest(static_cast<std::size_t>(width));  // of three samples in a column
   for (int row = 1; row + 1 < samples.height; ++row) {
     const float* here = samples.values.data() + std::ptrdiff_t{row} * width;
     float* out = lifted.values.data() + std::ptrdiff_t{row} * width;
@@ -211,8 +213,7 @@ void WalkTile::load(const Surface& surface, const HeightPyramid& pyramid, const 
   const int row = frame.first_row;
   const int column = frame.first_column;
   const Image<float>& map = surface.map.height;
-  float reference =
-      0;  // a height of the tile's own, so that what is level stays so and digits go to differences
+  float reference = 0;  // a height of the tile's own: level ground stays level, and digits go to differences
   for (int i = 0; i < frame.rows * frame.columns; ++i) {
     const float value = map(row + i / frame.columns, column + i % frame.columns);
     if (std::isnan(value)) continue;
