@@ -48,8 +48,7 @@ struct TextureLayout {
   int height = 0;
   std::vector<std::string> channels = {};  ///< "Y", or "R", "G", …; a channel named "A" is data, not coverage
   SampleType type = SampleType::uint16;
-  std::vector<std::pair<std::string, std::string>> attributes =
-      {};                               ///< text attributes, where the format has them
+  std::vector<std::pair<std::string, std::string>> attributes = {};  ///< text, where the format has it
   const Georeference* place = nullptr;  ///< of a TIFF: where on earth it lies; may be null
   std::vector<BandText> bands = {};     ///< of a georeferenced TIFF: one entry per channel, or none
 };
