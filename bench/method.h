@@ -19,9 +19,8 @@ struct Method {
   std::string parameter;      ///< what the setting counts: "rays"
   std::vector<int> settings;  ///< settings to try, cheapest first; values between them are allowed too
   int granularity = 1;        ///< values between `settings` are rounded up to multiples of this
-  std::function<int(double)>
-      setting_for;                  ///< for a method that plans for an error: the setting that asks for it
-  bool is_baseline = false;         ///< others are compared with the cheapest of these
+  std::function<int(double)> setting_for;  ///< setting for an error, if the method plans for one; else empty
+  bool is_baseline = false;                ///< others are compared with the cheapest of these
   Cost built;                       ///< cost of making the method for the surface, whatever the setting
   std::function<void(int)> set_up;  ///< prepares a setting; timed apart. Empty if the run does everything
   std::function<Map(int)> run_map;

@@ -10,8 +10,7 @@ namespace heightlight {
 /// Density of the rays that find a sky view factor.
 enum class RayDensity {
   cosine,      ///< as in the form factor, so that all rays have equal weight
-  solid_angle  ///< uniform: a ray's weight is its cosine. Our rays use this, because ambient occlusion needs
-               ///< it
+  solid_angle  ///< uniform: a ray's weight is its cosine. Our rays use it, as ambient occlusion needs it
 };
 
 constexpr std::size_t kLatticePadding = 16;

@@ -18,9 +18,8 @@ struct TimeToError {
   std::string method;
   std::string parameter;
   bool is_baseline = false;
-  double target = 0;  ///< root mean square error wanted
-  bool reached =
-      false;  ///< false: no setting reaches the target; the fields below are those of the last setting tried
+  double target = 0;          ///< root mean square error wanted
+  bool reached = false;       ///< if not, the fields below are those of the last setting tried
   int setting = 0;            ///< the cheapest setting found that reaches the target
   double rmse = 0;            ///< measured with that setting
   bool extrapolated = false;  ///< whether costs are extrapolated from some rows to the whole map

@@ -38,9 +38,8 @@ const GeoTag* find_tag(const std::vector<GeoTag>& tags, std::uint16_t number);
 
 /// What the keys of a GeoTIFF say about its coordinates (OGC GeoTIFF 1.1, section 7).
 struct GeoKeys {
-  bool present = false;  ///< whether there is a directory of keys
-  bool point_samples =
-      false;  ///< whether coordinates refer to the samples themselves, not to the corners of their cells
+  bool present = false;          ///< whether there is a directory of keys
+  bool point_samples = false;    ///< whether coordinates are those of samples, not of cell corners
   bool in_degrees = false;       ///< whether the coordinates are geographic
   std::optional<double> metres;  ///< length of the unit of projected coordinates, in metres
   std::optional<double> height_metres;

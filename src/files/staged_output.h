@@ -38,9 +38,8 @@ class InputGuard {
 /// that it does not write itself: files that the earlier record lists, if their names are ones that such
 /// results have.
 struct FormerRecord {
-  std::string file = {};  ///< JSON file with the key `files` (read_file_records); empty: nothing is known
-  std::string prefix =
-      {};  ///< besides the names that the new result may write, all names that begin with this
+  std::string file = {};    ///< JSON file with the key `files` (read_file_records); empty: nothing is known
+  std::string prefix = {};  ///< names that begin with this, besides those that the new result may write
 };
 
 /// A folder of results that appears whole or not at all. Files are written into a hidden staging folder on

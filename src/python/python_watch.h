@@ -70,10 +70,9 @@ class PythonWatch {
 
   py::object progress_;
   std::thread::id caller_ = std::this_thread::get_id();
-  std::chrono::steady_clock::time_point asked_ =
-      std::chrono::steady_clock::now();  ///< last look for signals; used by the caller's thread only
-  std::chrono::steady_clock::time_point told_ =
-      asked_;  ///< last progress report; used by one thread at a time
+  /// Time of the last look for signals; used by the caller's thread only.
+  std::chrono::steady_clock::time_point asked_ = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::time_point told_ = asked_;  ///< last report; used by one thread at a time
   std::atomic<bool> stopped_{false};
   /// Through this pointer, objects that outlive this watch find it; null once the watch has ended.
   std::shared_ptr<std::atomic<PythonWatch*>> self_ = std::make_shared<std::atomic<PythonWatch*>>(this);
