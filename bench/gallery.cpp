@@ -140,7 +140,7 @@ void paste(Image<Rgb8>& sheet, int top, int left, int side, const std::function<
   }
 }
 
-/// The middle of a texture, one texel per pixel if the texture is large enough.
+/// The colours of a picture of kSmall × kSmall pixels that shows the whole texture; `tone` converts samples.
 std::function<Rgb8(int, int)> show(const Texture& texture, const std::function<Rgb8(const Colour&)>& tone) {
   return [&texture, tone](int row, int column) {
     return tone(texture.sample((column + 0.5) / kSmall, (row + 0.5) / kSmall));

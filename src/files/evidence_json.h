@@ -21,7 +21,8 @@ struct MapMeasures {
 };
 
 /// Describes a file's map as it was understood: path, sha256, width, height, texel, relief, boundary,
-/// missing. Only the size of the heights of `header` is used.
+/// missing; and `lowered_by` where the Earth's curvature was applied. `header` needs no heights, only their
+/// size.
 nlohmann::ordered_json describe_map(const std::filesystem::path& path, const std::string& sha256,
                                     const Heightmap& header, const MapMeasures& measures);
 

@@ -55,7 +55,8 @@ class TiffRows {
   /// The image without its samples.
   const StoredImage& header() const { return header_; }
 
-  /// Number of rows that the file stores together (a row of tiles). Reading should begin at multiples of it.
+  /// Number of rows that are read together: those of a tile, or of a strip up to 256. Reading should begin at
+  /// multiples of it.
   int together() const;
 
   /// Reads rows [first, first + count), as an image of their own. If the file has tiles, `first` must be a

@@ -43,7 +43,7 @@ class InputFile {
   /// A name of the open file, for libraries that open files by name.
   std::string name_for_libraries() const;
 
-  /// A library's message on one line, with the path in place of name_for_libraries().
+  /// A library's message on one line, with the file's own name in place of name_for_libraries().
   std::string explain(const std::string& message) const;
 
   Error error(const std::string& fault, const std::string& remedy = "") const {
