@@ -50,7 +50,7 @@ class EmbreeMesh {
       packet.ray.dir_x[lane] = bundle.step_u[ray];
       packet.ray.dir_y[lane] = bundle.step_v[ray];
       packet.ray.dir_z[lane] = bundle.slope[ray] * vertical_scale_;
-      packet.ray.tnear[lane] = 1e-4F;  // Embree has no other way to leave the surface on which a ray starts
+      packet.ray.tnear[lane] = 1e-4F;  // Embree has no other means to leave the surface on which a ray starts
       packet.ray.tfar[lane] = std::numeric_limits<float>::infinity();
       packet.ray.mask[lane] = ~0U;
       packet.ray.time[lane] = 0;

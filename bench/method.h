@@ -11,9 +11,9 @@
 
 namespace heightlight {
 
-/// A way to find one value per texel (the sky view factor, or the total irradiance / π) of a given surface,
-/// with one setting that trades time for accuracy. `run_map` is for methods that are fast enough to be timed
-/// on the whole map; a method that has only `run_receivers` is timed on some rows.
+/// A method to find one value per texel (the sky view factor, or the total irradiance / π) of a given
+/// surface, with one setting that trades time for accuracy. `run_map` is for methods that are fast enough to
+/// be timed on the whole map; a method that has only `run_receivers` is timed on some rows.
 struct Method {
   std::string name;
   std::string parameter;      ///< what the setting counts: "rays"

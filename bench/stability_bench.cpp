@@ -1,4 +1,4 @@
-// Hard cases: the error and the cost of each way of finding visibility, on maps where something might break.
+// Hard cases: the error and the cost of each method for visibility, on maps where something might break.
 //
 // The reference is A by exact slices along 1024 azimuths at up to 64 receivers; the tests compare these
 // slices with an implementation in extended precision. Each method has the settings of a normal use: 1024

@@ -33,7 +33,7 @@ class HeightlightAccessor:
         self._array = array
 
     def heightmap(self, texel: Any = None, boundary: str = "open") -> Heightmap:
-        """The heights with their spacing, as a `Heightmap` with row 0 on top whichever way y runs."""
+        """The heights with their spacing, as a `Heightmap` with row 0 on top whether y rises or falls."""
         array = self._array
         self._check_dimensions()
         heights = np.array(array.values, dtype=np.float64)

@@ -52,7 +52,7 @@ void set_samples(TIFF* tiff, const TextureLayout& layout) {
 }
 
 /// Sets a tag. libtiff takes the number of values, not of bytes; for texts it takes none if a host program
-/// registered the tag that way.
+/// registered the tag so.
 void set_place_tag(TIFF* tiff, const GeoTag& tag) {
   const TIFFField* field = TIFFFindField(tiff, tag.number, TIFF_ANY);
   if (field && !TIFFFieldPassCount(field)) {

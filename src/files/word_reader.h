@@ -9,7 +9,7 @@
 
 namespace heightlight {
 
-/// Splits a text file into words at white space, reading a block at a time.
+/// Splits a text file into words at white space, reading it in pieces.
 class WordReader {
  public:
   /// Begins at the start of the file and skips a UTF-8 byte-order mark. The file must outlive this object.
