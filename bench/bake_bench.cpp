@@ -1,6 +1,6 @@
-// Seconds per megatexel, memory and error of `bake`: a 16-bit PNG in, ao, bent-normal and multibounce as
-// 16-bit PNGs out, at the default error. The walk of the sky alone, as the plan has it, is measured beside
-// it.
+// Seconds per megatexel, memory and error of `bake`: reads a 16-bit PNG and writes ao, bent-normal and
+// multibounce as 16-bit PNGs, at the default error. The walk of the sky alone, as planned, is measured for
+// comparison.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>

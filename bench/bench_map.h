@@ -10,9 +10,9 @@
 
 namespace heightlight {
 
-/// A map of the benchmarks at `size` × `size`, open, relief a tenth of its width: "brick" and "fbm" are the
-/// project's own; "ground054" is a real material, read from HEIGHTLIGHT_SHARED_DIR and sampled down. Nothing
-/// where it is absent.
+/// A benchmark map of `size` × `size` texels with open boundary and a relief of a tenth of its width. "brick"
+/// and "fbm" are this project's own shapes; "ground054" is a real material, read from HEIGHTLIGHT_SHARED_DIR
+/// and sampled down. Empty where that file is absent.
 inline std::optional<Heightmap> make_bench_map(const std::string& name, int size) {
   Heightmap map;
   if (name == "ground054") {

@@ -9,11 +9,11 @@
 
 namespace heightlight {
 
-/// What Embree makes its tree of. A quad is cut into the same two triangles as the surface's cell.
+/// The primitives of Embree's tree. A quad is cut into the same two triangles as the surface's cell.
 enum class EmbreePrimitive { triangle, quad };
 
-/// The surface as a mesh in Embree, in grid coordinates: x = column, y = row, z = height × `vertical_scale`,
-/// which makes heights comparable with texels. Single-threaded at tracing.
+/// The surface as an Embree mesh in grid coordinates: x = column, y = row, z = height × `vertical_scale`,
+/// which converts heights to texels. Tracing is single-threaded.
 class EmbreeMesh {
  public:
   explicit EmbreeMesh(const Surface& surface, EmbreePrimitive primitive = EmbreePrimitive::triangle,
@@ -39,7 +39,7 @@ class EmbreeMesh {
   EmbreeMesh(const EmbreeMesh&) = delete;
   EmbreeMesh& operator=(const EmbreeMesh&) = delete;
 
-  /// Eight rays of a bundle as a packet.
+  /// Rays `first` to `first + 7` of a bundle as a packet.
   RTCRayHit8 packet(const RayBundle& bundle, int first) const {
     RTCRayHit8 packet;
     for (int lane = 0; lane < 8; ++lane) {
@@ -50,7 +50,7 @@ class EmbreeMesh {
       packet.ray.dir_x[lane] = bundle.step_u[ray];
       packet.ray.dir_y[lane] = bundle.step_v[ray];
       packet.ray.dir_z[lane] = bundle.slope[ray] * vertical_scale_;
-      packet.ray.tnear[lane] = 1e-4F;  // Embree has no other way to leave the surface that a ray starts on
+      packet.ray.tnear[lane] = 1e-4F;  // Embree has no other means to leave the surface on which a ray starts
       packet.ray.tfar[lane] = std::numeric_limits<float>::infinity();
       packet.ray.mask[lane] = ~0U;
       packet.ray.time[lane] = 0;
@@ -95,7 +95,7 @@ class EmbreeMesh {
     }
   }
 
-  /// Embree cuts a quad from its second corner to its fourth.
+  /// Embree cuts a quad along the diagonal from its second corner to its fourth.
   static void fill_quads(const Surface& surface, RTCGeometry geometry) {
     const auto columns = static_cast<unsigned>(surface.width());
     unsigned* index = new_indices(geometry, RTC_FORMAT_UINT4, 4, cell_count(surface));

@@ -8,15 +8,15 @@
 
 namespace heightlight {
 
-/// Every way to ask Embree for occlusion.
+/// All modes in which Embree can be asked for occlusion.
 std::vector<EmbreeMode> embree_modes();
 
-/// One of Embree's trees over a surface, and how fast each mode is with it.
+/// One of Embree's trees over a surface, and the speed of each mode with it.
 struct EmbreeTree {
   EmbreePrimitive primitive = EmbreePrimitive::quad;
   RTCBuildQuality quality = RTC_BUILD_QUALITY_MEDIUM;
   Cost built;
-  std::vector<double> ray_core_ns;  ///< per ray, by embree_modes()
+  std::vector<double> ray_core_ns;  ///< core-nanoseconds per ray, in the order of embree_modes()
 };
 
 /// A tree, and the mode to use it with.
@@ -26,21 +26,21 @@ struct EmbreeWay {
   Cost built;
 };
 
-/// The best that Embree can do on a surface, the best by packets alone, and what they were chosen from.
+/// Embree's best tree and mode on a surface, its best by packets alone, and all trees that were tried.
 struct EmbreeBest {
   EmbreeWay any;
   EmbreeWay packets;
   std::vector<EmbreeTree> trees;
 };
 
-constexpr int kEmbreeTrialRays = 256;  ///< per texel; about what the errors asked for need
+constexpr int kEmbreeTrialRays = 256;  ///< per texel; about as many as the targets for the error need
 
-/// Tries each tree with each mode on some rows of the map, and keeps the pairs that cost a whole map of
-/// kEmbreeTrialRays the fewest core-seconds, the tree's own included.
+/// Tries each tree with each mode on some rows of the map, and keeps the pairs that need the fewest
+/// core-seconds for a whole map with kEmbreeTrialRays per texel, including the time to build the tree.
 EmbreeBest find_embree_best(const Surface& surface);
 
-/// Sky view factor by the best, one method per density, and by the best packets. The surface must outlive
-/// them.
+/// Methods for the sky view factor: the best tree and mode with each ray density, and the best packets. The
+/// surface must outlive them.
 std::vector<Method> embree_sky_methods(const Surface& surface, const EmbreeBest& best);
 
 }  // namespace heightlight

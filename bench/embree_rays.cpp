@@ -11,19 +11,20 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-// Rays start this far above their receiver, in texels, so that those below a facet at the vertex meet it:
-// straight up, since along its normal a vertex at the foot of a wall gets below the floor. A tnear instead
-// would let such rays run below the surface until many come out to the sky: with 1e-4, A of the brick wall is
-// .01 too high. With this lift it is .0002 (RMS) from that of exact rays; .0004 with ten times, .0003 with a
-// third of it.
+// Rays start this far above their receiver, in texels, so that rays that go below a facet at the vertex hit
+// it. The offset is straight up, because along its normal, a vertex at the foot of a wall would get below the
+// floor. A tnear instead would let such rays run below the surface until many leave it toward the sky: with a
+// tnear of 1e-4, A of the brick wall is .01 too high. With this lift, A differs from that of exact rays by
+// .0002 (RMS); with ten times the lift by .0004, with a third of it by .0003.
 constexpr float kLift = 3e-4F;
 
-// Some receivers' rays in one stream cost less than each receiver's in its own, while they fit into a cache.
+// The rays of several receivers in one stream cost less than one stream per receiver, while they fit into a
+// cache.
 constexpr std::size_t kStreamRays = 2048;
 
 std::array<float, 3> grid_axis(const Eigen::Vector3f& axis) { return {axis.x(), -axis.y(), axis.z()}; }
 
-/// Component c of the lattice's k-th direction.
+/// Component c of the lattice's k-th direction, rotated to the given axes.
 float component(const RayLattice& lattice, std::size_t k, const std::array<float, 3>& tangent,
                 const std::array<float, 3>& bitangent, const std::array<float, 3>& normal, std::size_t c) {
   return lattice.x[k] * tangent[c] + lattice.y[k] * bitangent[c] + lattice.z[k] * normal[c];

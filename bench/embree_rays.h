@@ -10,7 +10,7 @@
 
 namespace heightlight {
 
-/// How rays are handed to Embree: one by one, in packets, or as a stream of some thousand.
+/// How rays are passed to Embree: one by one, in packets, or as a stream of some thousands.
 enum class EmbreeCall { single, packet8, packet16, stream };
 struct EmbreeMode {
   EmbreeCall call = EmbreeCall::single;
@@ -18,17 +18,18 @@ struct EmbreeMode {
 };
 std::string to_string(EmbreeMode mode);
 
-/// Sky view factors by occlusion rays that Embree traces, sent as a program built on Embree would: lattices
-/// that are made once and turned by texel, as ours are, and no hit where a yes or no will do.
+/// Sky view factors by occlusion rays that Embree traces, sent as a program built on Embree would send them:
+/// the ray lattices are made once and rotated per texel, as for our rays, and occlusion is queried without a
+/// hit.
 class EmbreeRays {
  public:
-  /// Both must outlive this.
+  /// `surface` and `mesh` must outlive this object.
   EmbreeRays(const Surface& surface, const EmbreeMesh& mesh, EmbreeMode mode, RayDensity density, int rays);
 
   std::vector<float> sky_view_factors(const Receivers& receivers) const;
 
  private:
-  /// Where a receiver's rays start, and the axes of its lattice; x = column, y = row, z = height / spacing.
+  /// The origin of a receiver's rays and the axes of its lattice; x = column, y = row, z = height / spacing.
   struct Stand {
     const RayLattice* lattice;
     std::array<float, 3> origin, tangent, bitangent, normal;

@@ -1,11 +1,12 @@
-// Time to error: what each method needs, set-up included, to find a whole map to a given root mean square
-// error. All run in one process, one after the other, on the same maps; the peer is Embree, in the fastest of
-// the ways that it offers.
+// Time to error: what each method needs, including set-up, to find a whole map with a given root mean square
+// error. All methods run in one process, one after the other, on the same maps. They are compared with
+// Embree, in the fastest of its modes.
 //
-// Why these maps: brick has cliffs and deep joints, fBm slopes at every scale, ground054 is a scanned
-// material. Why two sizes: a ray costs more on a larger map. Why these errors: in an image of eight bits,
-// .002 is half a level and .001 a quarter; the total of all bounces, on the same scale, is asked for to .005,
-// a level and a quarter. The sky at 1024² takes twelve minutes on two cores; all of it takes up to 3 GB.
+// Choice of maps: brick has cliffs and deep joints, fBm has slopes at every scale, ground054 is a scanned
+// material. There are two sizes because a ray costs more on a larger map. Choice of errors: in an image of
+// eight bits, .002 is half a level and .001 a quarter; for the total of all bounces, on the same scale, the
+// target is .005, a level and a quarter. The sky at 1024² takes twelve minutes on two cores; the whole
+// benchmark takes up to 3 GB.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
@@ -27,7 +28,7 @@ namespace {
 
 constexpr double kAlbedo = 0.8;
 
-/// The methods to compare. A new one is a function that returns a Method, and a line here.
+/// The methods to compare. To add one, write a function that returns a Method, and add a line here.
 std::vector<Method> sky_methods(const Surface& surface, const EmbreeBest& embree) {
   std::vector<Method> methods = embree_sky_methods(surface, embree);
   methods.push_back(ray_sky_method(surface));
@@ -59,7 +60,7 @@ void print_embree_ways(const EmbreeBest& best) {
               best.packets.built.core);
 }
 
-/// How far a method is from the reference when its own noise is gone.
+/// Prints how far a method is from the reference with so many rays that its own noise is negligible.
 void print_bias(const Method& method, const ReferenceValues& reference) {
   constexpr int kRays = 65536;
   method.set_up(kRays);
@@ -70,11 +71,11 @@ void print_bias(const Method& method, const ReferenceValues& reference) {
               rmse(values, reference.values), sum / static_cast<double>(values.size()));
 }
 
-/// What is found out, and where it goes.
+/// The results, and where they are written.
 struct Tables {
   ResultTable results;
-  std::string csv;                   ///< empty: nowhere but to standard output
-  std::optional<CurveTable> curves;  ///< where they are wanted
+  std::string csv;                   ///< path of the results; empty: standard output only
+  std::optional<CurveTable> curves;  ///< only if curves are wanted
   std::string curve_csv;
 
   void write() const {
@@ -93,7 +94,7 @@ void race(Tables& tables, const RaceName& name, const std::vector<Method>& metho
   }
   tables.results.add(name, results);
   if (!tables.curves) return;
-  // What traces rays ends where the last target is reached, walks when they are twice as good.
+  // Curves of methods that trace rays end at the last target, those of walks at half of it.
   for (const Method& method : methods) {
     const double least_error = targets.back() * (method.run_map && !method.is_baseline ? 0.5 : 1);
     tables.curves->add(name, error_curve(method, surface, reference, least_error));
@@ -112,7 +113,8 @@ void race_sky(Tables& tables, const std::string& map, const Surface& surface) {
   race(tables, {"sky view factor", map, surface.width()}, methods, surface, sky.reference, {0.002, 0.001});
 }
 
-/// The reference for totals once more, from other rays and twice as many per texel, where that is cheap.
+/// Makes the reference for totals again, with different rays and twice as many per texel, on a map where that
+/// is cheap, and prints the difference.
 void print_total_reference_error(const std::string& map) {
   constexpr int kSize = 256;
   const Surface surface = build_surface(make_bench_map(map, kSize).value());

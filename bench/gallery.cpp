@@ -1,8 +1,7 @@
-// The README's gallery of baked maps, from the files that `heightlight bake` wrote (plots/make-gallery):
-//   row 1: height, ao, bent normal, and what a grey and a red surface reflect under an even sky (albedo ×
-//   E/π) row 2: a red sphere under an uneven sky with the normal map alone, with ao as well (toward the bent
-//   normal),
-//          and with the red albedo's multibounce in place of ao
+// The README's gallery of baked maps, made from files that `heightlight bake` wrote (plots/make-gallery).
+// Row 1: height, ao, bent normal, and what a grey and a red surface reflect under an even sky (albedo × E/π).
+// Row 2: a red sphere under an uneven sky, with the normal map alone; with ao as well (toward the bent
+// normal); and with the red albedo's multibounce in place of ao.
 #include <CLI/CLI.hpp>
 #include <Eigen/Geometry>
 #include <array>
@@ -46,7 +45,7 @@ class Texture {
     }
     return colour;
   }
-  /// Bilinear, repeated.
+  /// Bilinear interpolation; the texture repeats.
   Colour sample(double u, double v) const {
     const double x = (u - std::floor(u)) * width() - 0.5;
     const double y = (v - std::floor(v)) * height() - 0.5;
@@ -76,7 +75,7 @@ Rgb8 picture(const Colour& colour) {
   return {encode_srgb(colour.x()), encode_srgb(colour.y()), encode_srgb(colour.z())};
 }
 
-/// As data is looked at: not encoded.
+/// For maps that show data: the values are not encoded as sRGB.
 Rgb8 plain(const Colour& colour) {
   Rgb8 pixel;
   for (std::size_t c = 0; c < 3; ++c) {
@@ -85,8 +84,8 @@ Rgb8 plain(const Colour& colour) {
   return pixel;
 }
 
-/// E/π under a bright sky from the upper left, toward a direction without occluders; x right, y up, z out of
-/// the picture.
+/// E/π of an unoccluded place with this normal, under a sky that is bright in the upper left; x right, y up,
+/// z out of the picture.
 Colour sky_toward(const Eigen::Vector3d& normal) {
   static const std::array<Harmonics, 3> kSky = [] {
     const Harmonics key = harmonics_of(Eigen::Vector3d(-0.6, 0.6, 0.53).normalized());
@@ -103,7 +102,8 @@ Colour sky_toward(const Eigen::Vector3d& normal) {
     return sky;
   }();
   Harmonics y = harmonics_of(normal);
-  for (std::size_t i = 0; i < 9; ++i) y[i] *= i == 0 ? 1 : i < 4 ? 2.0 / 3 : 0.25;  // the cosine lobe, over π
+  // convolves with the cosine lobe, over π
+  for (std::size_t i = 0; i < 9; ++i) y[i] *= i == 0 ? 1 : i < 4 ? 2.0 / 3 : 0.25;
   return Colour(dot(y, kSky[0]), dot(y, kSky[1]), dot(y, kSky[2])).max(0);
 }
 
@@ -113,7 +113,7 @@ struct Maps {
 
 enum class Shading { normals, occlusion, bounces };
 
-/// What the sphere shows at (x, y) in its disk of radius 1; the tile repeats over longitude and latitude.
+/// Colour of the sphere at (x, y) in its disk of radius 1; the tile repeats over longitude and latitude.
 Colour shade_sphere(double x, double y, const Maps& maps, const Colour& albedo, Shading shading) {
   const Eigen::Vector3d n(x, y, std::sqrt(std::max(0.0, 1 - x * x - y * y)));
   const double longitude = std::atan2(n.x(), n.z());
@@ -140,7 +140,7 @@ void paste(Image<Rgb8>& sheet, int top, int left, int side, const std::function<
   }
 }
 
-/// The middle of a texture, one texel a pixel where it is large enough.
+/// The colours of a picture of kSmall × kSmall pixels that shows the whole texture; `tone` converts samples.
 std::function<Rgb8(int, int)> show(const Texture& texture, const std::function<Rgb8(const Colour&)>& tone) {
   return [&texture, tone](int row, int column) {
     return tone(texture.sample((column + 0.5) / kSmall, (row + 0.5) / kSmall));
@@ -149,7 +149,7 @@ std::function<Rgb8(int, int)> show(const Texture& texture, const std::function<R
 
 void draw_sphere(Image<Rgb8>& sheet, int top, int left, int side, const Maps& maps, const Colour& albedo,
                  Shading shading) {
-  constexpr int kSamples = 3;  // a side, per pixel
+  constexpr int kSamples = 3;  // per side of a pixel
   paste(sheet, top, left, side, [&](int row, int column) {
     Colour sum = Colour::Zero();
     for (int s = 0; s < kSamples * kSamples; ++s) {

@@ -1,10 +1,10 @@
-// How time, memory and error grow with the map: the sky by a fixed walk, then the sky and the total of all
-// bounces for a fixed error, as `simulate` plans them.
+// How time, memory and error grow with the size of the map: for the sky by a fixed walk, then for the sky and
+// the total of all bounces with a fixed error, as `simulate` plans them.
 //
-// The maps keep their shape: open, relief a tenth of the width. Finer maps have finer detail (fBm down to two
-// texels, sharper bricks). Each is worked on in a process of its own, so that its peak of memory is its own;
-// making the map counts for neither time nor memory in use, and finding the errors, by exact walks from some
-// hundred receivers, for neither. Up to 4096 all of it takes some four minutes on two cores, and 2 GB.
+// All maps have an open boundary and a relief of a tenth of the width. Larger maps have finer detail (fBm
+// down to two texels, sharper bricks). Each map is processed in a process of its own, whose peak of memory is
+// therefore that of the map. Neither time nor memory includes making the map, and finding the errors by exact
+// walks from some hundreds of receivers. All maps up to 4096 take about four minutes on two cores, and 2 GB.
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -35,25 +35,25 @@ namespace {
 constexpr double kAlbedo = 0.8;
 constexpr WalkOptions kFixedWalk{.azimuths = 32, .samples_per_octave = 16, .peak_share = 0.3F};
 
-/// What became of one map. Plain, so that it can go through a pipe.
+/// Results for one map. A plain struct, so that it can go through a pipe.
 struct Growth {
   Cost fixed_walk;
-  Cost calibration;  ///< its exact walks
-  Cost sky;          ///< with its pyramid, and the choice of how it is walked
-  Cost plan;         ///< of the gathers, and the heights that they look at
+  Cost calibration;  ///< exact walks of the calibration sample
+  Cost sky;          ///< including the pyramid, and the choice of the walk
+  Cost plan;         ///< planning of the gathers, including the heights that they look at
   Cost totals;       ///< all gathers
   int sky_azimuths = 0;
   int sky_fineness = 0;
-  int gather_azimuths = 0;  ///< of each of the last two
+  int gather_azimuths = 0;  ///< number of azimuths of each of the last two gathers
   int gather_fineness = 0;
   int gathers = 0;
-  double peak_bytes = 0;  ///< resident, of the process, until the totals are there
+  double peak_bytes = 0;  ///< largest resident memory of the process until the totals exist
   HorizonCheck check;
 
   Cost all() const { return calibration + sky + plan + totals; }
 };
 
-/// Resident memory of this process at its most, bytes.
+/// Largest resident memory of this process so far, in bytes.
 double peak_memory() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -68,13 +68,13 @@ struct Options {
   std::string csv;
 };
 
-/// What totals are gathered from. What planning holds beside it is gone by then.
+/// What totals are gathered from. Other data of the planning are released by then.
 struct Planned {
   Map sky;
   PlannedGather gather;
 };
 
-/// Plans and finds the sky, and plans the gathers, as `simulate` does, from the same parts, so that each can
+/// Plans and finds the sky, and plans the gathers, with the same parts as `simulate`, so that each step can
 /// be timed.
 Planned plan(const Surface& surface, const Options& options, Growth& growth) {
   HorizonGoal goal;
@@ -118,7 +118,8 @@ Growth measure(const Options& options, const std::string& map, int size) {
   return growth;
 }
 
-/// The same in a process of its own. This one must not have used threads yet: they do not outlive a fork.
+/// As above, in a process of its own. This process must not have used threads yet, because threads do not
+/// survive a fork.
 Growth measure_apart(const Options& options, const std::string& map, int size) {
   int ends[2];
   if (pipe(ends) != 0) throw Error("no pipe to another process");

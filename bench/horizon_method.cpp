@@ -10,14 +10,14 @@
 namespace heightlight {
 namespace {
 
-constexpr std::uint64_t kSeed = 1;  // of the calibration sample, which is not the reference's
+constexpr std::uint64_t kSeed = 1;  // of the calibration sample; differs from the reference's seeds
 
 Map walk_sky(const Surface& surface, const SkyPlan& plan) {
   return walk_horizon_sky(surface, build_height_pyramid(surface), plan).sky_view_factor;
 }
 
-/// A walk whose azimuths and samples per octave are given; every other azimuth where 1 − A is less than
-/// `full_from`.
+/// A walk with given azimuths and samples per octave. Where 1 − A is less than `full_from`, it takes only
+/// every other azimuth.
 Method walk_method(const Surface& surface, int samples_per_octave, double full_from) {
   Method method;
   method.name =
@@ -32,7 +32,7 @@ Method walk_method(const Surface& surface, int samples_per_octave, double full_f
   return method;
 }
 
-/// A method that is told an error, as its inverse.
+/// A method that plans for an error; its setting is 1/error.
 Method planned_method(const std::vector<double>& errors) {
   Method method;
   method.name = "horizon walk, planned";
@@ -59,7 +59,7 @@ Method planned_sky_method(const Surface& surface) {
 
 std::vector<Method> horizon_sky_methods(const Surface& surface) {
   std::vector<Method> methods;
-  constexpr double kFullFrom = 0.3;  // beside walls, on brick a third of the map
+  constexpr double kFullFrom = 0.3;  // such places are beside walls; on brick, a third of the map
   for (const int samples_per_octave : {8, 12, 16, 20, 24, 32})
     methods.push_back(walk_method(surface, samples_per_octave, 0));
   for (const int samples_per_octave : {12, 16, 20, 24})

@@ -1,7 +1,8 @@
-// Rays per second, ours and Embree's, in one process: the same mesh, the same rays, one thread. Why these
-// maps: brick has cliffs and deep joints, fBm slopes at every scale, ground054 is a scanned material.
-// `disagree` is the share of rays that one calls blocked and the other not, without those that our traversal
-// ends at the receiver's own facets, which Embree, started a little above them, cannot see.
+// Rays per second of our traversal and of Embree, in one process: the same mesh, the same rays, one thread.
+// Choice of maps: brick has cliffs and deep joints, fBm has slopes at every scale, ground054 is a scanned
+// material. `disagree` is the share of rays that one of the two calls blocked and the other does not. It
+// excludes rays that our traversal ends at the receiver's own facets, which Embree's rays, started a little
+// above, cannot hit.
 #include <benchmark/benchmark.h>
 
 #include <limits>
@@ -28,9 +29,10 @@ struct Scene {
 
   using Aim = RayBundle (RayCaster::*)(int, int, const LatticeTurn&, RayWorkspace&) const;
 
-  /// The rays of the i-th receiver; `aim` says whether with our bounds or, for a peer, without their cost.
+  /// The rays of the i-th receiver. `aim` computes them with the bounds of our traversal, or for a peer
+  /// without these bounds and their cost.
   RayBundle rays_of(int i, Aim aim, RayWorkspace& workspace) const {
-    // Runs of 64 neighbours, since that is the order in which a simulation asks.
+    // Runs of 64 neighbours, the order in which a simulation traces them.
     const std::uint64_t texel =
         (scramble(static_cast<std::uint64_t>(i / 64)) + static_cast<std::uint64_t>(i % 64)) %
         surface.map.height.size();
@@ -44,7 +46,7 @@ RayEnds ends_of(RayWorkspace& workspace) {
   return {workspace.cell.data(), workspace.across.data(), workspace.down.data()};
 }
 
-/// Our traversal always finds the closest hit: occlusion is a by-product.
+/// Our traversal always finds the closest hit; occlusion is a by-product of it.
 void trace_ours(benchmark::State& state, const Scene& scene,
                 void (*traverse_rays)(const RayGrid&, const RayBundle&, const RayEnds&)) {
   RayWorkspace workspace(kRays);

@@ -19,7 +19,8 @@ float side(RayIterator begin, RayIterator end, std::size_t axis) {
   return high->direction[axis] - low->direction[axis];
 }
 
-/// Cuts the longest side of the directions' box, again and again, down to clusters of eight.
+/// Sorts directions into clusters of eight, by halving the longest side of their bounding box again and
+/// again.
 void cluster(RayIterator begin, RayIterator end) {
   constexpr std::ptrdiff_t kCluster = 8;
   if (end - begin <= kCluster) return;
@@ -41,7 +42,7 @@ RayLattice make_lattice(const HemisphereDirections& directions, std::size_t tabl
   for (std::size_t k = 0; k < rays.size(); ++k) {
     float cosine = directions.cosine[table][k];
     float weight = static_cast<float>(directions.weight[table][k]);
-    if (density == RayDensity::cosine) {  // cosθ uniform in [0, 1] becomes cos²θ uniform
+    if (density == RayDensity::cosine) {  // converts uniform cosθ in [0, 1] to uniform cos²θ
       cosine = std::sqrt(cosine);
       weight = 1.0F / static_cast<float>(directions.count);
     }

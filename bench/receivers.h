@@ -12,10 +12,10 @@
 
 namespace heightlight {
 
-/// Receivers of a surface, as indices into its maps, in the order in which they are asked.
+/// Receivers of a surface, as indices into its maps, in the order in which they are evaluated.
 using Receivers = std::vector<std::size_t>;
 
-/// `count` receivers from all over the map, picked by a hash: where errors are measured.
+/// Picks `count` receivers from all over the map by a hash; errors are measured at them.
 inline Receivers pick_receivers(const Surface& surface, int count) {
   Receivers receivers(static_cast<std::size_t>(count));
   for (std::size_t i = 0; i < receivers.size(); ++i) {
@@ -24,10 +24,10 @@ inline Receivers pick_receivers(const Surface& surface, int count) {
   return receivers;
 }
 
-/// Whole rows, as a simulation asks for them, one from each of `rows` equal bands of the map, where in it by
-/// a hash: what stands for the map where a method is too slow to be timed on all of it. (At equal distances
-/// they might keep step with the courses of a wall.) From 32 rows the time of the benchmarks' maps came out
-/// within 7 % of what all of their rows took.
+/// Whole rows, in the order in which a simulation visits them: one from each of `rows` equal bands of the
+/// map, at a position in the band chosen by a hash. They represent the map for methods that are too slow to
+/// be timed on all of it. (Rows at equal distances might coincide with the courses of a wall.) With 32 rows,
+/// the time extrapolated to the benchmarks' maps was within 7 % of what all of their rows took.
 inline Receivers row_receivers(const Surface& surface, int rows) {
   const auto band = static_cast<std::size_t>(surface.height() / rows);
   const auto width = static_cast<std::size_t>(surface.width());

@@ -12,7 +12,7 @@
 namespace heightlight {
 namespace {
 
-/// The cheapest baseline that reaches the target; null where none does.
+/// The cheapest baseline that reaches the target; null if none does.
 const TimeToError* find_baseline(const std::vector<TimeToError>& results, double target) {
   const TimeToError* cheapest = nullptr;
   for (const TimeToError& result : results) {

@@ -7,26 +7,26 @@
 
 namespace heightlight {
 
-/// What methods were measured on, and for.
+/// What is measured: a quantity on a map.
 struct RaceName {
   std::string quantity;  ///< "sky view factor"
   std::string map;
   int size = 0;
 };
 
-/// Collects results, and prints each race's on standard output as they come.
+/// Collects results, and prints those of each race on standard output as they arrive.
 class ResultTable {
  public:
   void add(const RaceName& race, const std::vector<TimeToError>& results);
 
-  /// Results as comma-separated values. Throws Error when the file cannot be written.
+  /// Writes the results as comma-separated values. Throws Error when the file cannot be written.
   void write_csv(const std::string& path) const;
 
  private:
   struct Row {
     RaceName race;
     TimeToError result;
-    double core_gain;  ///< baseline's core-seconds over this method's; NaN where either misses the target
+    double core_gain;  ///< baseline's core-seconds over this method's; NaN if either misses the target
     double wall_gain;
   };
   std::vector<Row> rows_;
@@ -37,7 +37,7 @@ class CurveTable {
  public:
   void add(const RaceName& race, const std::vector<CurvePoint>& curve);
 
-  /// Points as comma-separated values. Throws Error when the file cannot be written.
+  /// Writes the points as comma-separated values. Throws Error when the file cannot be written.
   void write_csv(const std::string& path) const;
 
  private:

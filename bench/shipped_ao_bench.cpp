@@ -1,7 +1,8 @@
 // Rank correlation (Spearman's) of baked ambient occlusion with the AO maps that came with real materials.
-// Their makers tell neither the relief nor the radius nor the gamma: the relief is searched for, without a
-// radius and with some, and only the order of values is compared. Where the two differ
-// is told by octaves: means over ever larger squares, ours after its values have been given theirs by rank.
+// The makers of these maps do not state the relief, the radius or the gamma. Hence the relief is searched
+// for, without a radius and with several, and only the order of values is compared. The difference is also
+// given by octaves: means over larger and larger squares, after our values have been replaced by theirs of
+// equal rank.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -20,7 +21,7 @@
 namespace heightlight {
 namespace {
 
-/// Ranks, those of equal values averaged.
+/// Ranks of values; equal values get their mean rank.
 std::vector<double> ranks_of(const std::vector<float>& values) {
   std::vector<std::size_t> order(values.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -75,7 +76,7 @@ constexpr ShippedMaterial kMaterials[] = {
     {"Bricks102", "Bricks102_height.jpg", "Bricks102_ao.jpg"}};
 
 struct Search {
-  const Heightmap& unit;  ///< of relief 1
+  const Heightmap& unit;  ///< relief 1
   std::vector<double> shipped;
   double error;
 
@@ -94,7 +95,8 @@ struct Search {
   }
 };
 
-/// The best relief: a coarse ladder, then halved steps around its best rung.
+/// The best relief: from a coarse geometric series, then with smaller and smaller steps around its best
+/// value.
 double best_relief(const Search& search, const std::optional<MaximumDistance>& radius, double& score) {
   double best = 0.01;
   score = -1;
@@ -113,7 +115,7 @@ double best_relief(const Search& search, const std::optional<MaximumDistance>& r
   return best;
 }
 
-/// `ours` with the values of `theirs`, handed out in the order of its own.
+/// `ours` with its values replaced by the values of `theirs` of equal rank.
 Map match_values(const Map& ours, const std::vector<float>& theirs) {
   std::vector<std::size_t> order(theirs.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -138,7 +140,7 @@ Map halve(const Map& map) {
   return half;
 }
 
-/// What a map has that its halved one has not.
+/// The detail of a map that its halved version lacks.
 std::vector<double> detail_beyond(const Map& half, const Map& map) {
   std::vector<double> detail;
   for (int row = 0; row < 2 * half.height; ++row) {

@@ -4,11 +4,11 @@
 
 namespace heightlight {
 
-/// The converged sky view factor at `count` receivers: the mean of two runs of 65536 rays that are turned
-/// differently.
+/// The converged sky view factor at `count` receivers: the mean of two runs of 65536 rays with different
+/// seeds.
 struct SkyReference {
   ReferenceValues reference;
-  double own_rmse = 0;  ///< of the mean, from how far the two are apart
+  double own_rmse = 0;  ///< RMSE of the mean, estimated from the difference of the two runs
 };
 SkyReference make_sky_reference(const Surface& surface, int count);
 

@@ -1,9 +1,10 @@
-// Hard cases: what each way of finding visibility errs by, and takes, on maps where something might break.
+// Hard cases: the error and the cost of each method for visibility, on maps where something might break.
 //
-// The answer is A by exact slices along 1024 azimuths on up to 64 receivers; the tests hold these slices to a
-// twin in extended precision. Errors are per method as a user runs it: 1024 rays, 128 exact azimuths, walks
-// planned for an error of .002. `energy` is the largest |E₀ + … + E₂₀ + tail − 1| at albedo 1 over all
-// texels; the tail is solved for where links are stored, and from conservation where bounces walk.
+// The reference is A by exact slices along 1024 azimuths at up to 64 receivers; the tests compare these
+// slices with an implementation in extended precision. Each method has the settings of a normal use: 1024
+// rays, 128 exact azimuths, walks planned for an error of .002. `energy` is the largest |E₀ + … + E₂₀ + tail
+// − 1| at albedo 1 over all texels; the tail is solved for where links are stored, and follows from
+// conservation where bounces are found by walks.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -42,7 +43,7 @@ std::vector<Way> ways() {
            [](const Surface& surface) { return plan_horizon_transport(surface, {}).transport; }}};
 }
 
-/// A at some receivers, by their texels.
+/// The reference: A at some receivers, given by their texels.
 struct Answer {
   std::vector<std::size_t> texels;
   std::vector<double> values;

@@ -6,13 +6,13 @@
 namespace heightlight {
 namespace {
 
-constexpr int kRows = 32;  // stand for the map: 16384 receivers and more
+constexpr int kRows = 32;  // these rows represent the map: 16384 receivers or more
 
 void set_up(const Method& method, int setting) {
   if (method.set_up) method.set_up(setting);
 }
 
-/// The method's values at the reference's receivers, once it is set up.
+/// The method's values at the reference's receivers; the method must be set up.
 std::vector<float> values_at(const Method& method, int setting, const Receivers& receivers) {
   if (method.run_receivers) return method.run_receivers(setting, receivers);
   const Map map = method.run_map(setting);
@@ -26,7 +26,7 @@ double measure_error(const Method& method, int setting, const ReferenceValues& r
   return rmse(values_at(method, setting, reference.receivers), reference.values);
 }
 
-/// A method's runs, and their share in the whole map.
+/// Times a method, on the whole map or on some rows, from which the cost of the map is extrapolated.
 class TimedRun {
  public:
   TimedRun(const Method& method, const Surface& surface, int rows = kRows) : method_(method) {
@@ -53,7 +53,7 @@ class TimedRun {
   double factor_ = 1;
 };
 
-/// A setting tried, and its error.
+/// A setting that was tried, and its error.
 struct Rung {
   int setting;
   double rmse;
@@ -73,9 +73,9 @@ int round_up(double setting, int granularity) {
   return static_cast<int>(std::ceil(setting / granularity - 1e-9)) * granularity;
 }
 
-/// The cheapest rung that reaches the target, between those climbed too: from where a power law through the
-/// last above the target and the first below meets it, upwards until the error measured does. The last rung
-/// where none reaches it.
+/// The cheapest setting that reaches the target, including settings between those tried. A power law through
+/// the last one above the target and the first one below it gives a start; from there, settings rise until
+/// the measured error reaches the target. Returns the last one tried if none reaches it.
 Rung cheapest_rung(const Method& method, const ReferenceValues& reference, const std::vector<Rung>& rungs,
                    double target) {
   const auto below =
@@ -94,8 +94,8 @@ Rung cheapest_rung(const Method& method, const ReferenceValues& reference, const
   }
 }
 
-/// The setting that asks for the target, or the first that asks for less and reaches it. The last tried where
-/// none does.
+/// The first setting that reaches the target, beginning with the one that asks for the target, and then
+/// asking for smaller errors. Returns the last one tried if none reaches it.
 Rung asked_rung(const Method& method, const ReferenceValues& reference, double target) {
   constexpr double kStep = 1.1;
   double setting = method.setting_for(target);
@@ -142,7 +142,7 @@ std::vector<TimeToError> time_to_error(const Method& method, const Surface& surf
 
 std::vector<CurvePoint> error_curve(const Method& method, const Surface& surface,
                                     const ReferenceValues& reference, double least_error) {
-  constexpr int kCurveRows = 8;  // a picture shows no difference
+  constexpr int kCurveRows = 8;  // more rows make no visible difference in a plot
   const TimedRun run(method, surface, kCurveRows);
   std::vector<CurvePoint> curve;
   for (const Rung& rung : climb(method, reference, least_error)) {

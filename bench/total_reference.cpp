@@ -15,8 +15,8 @@ TexelVector solve_field(const Surface& surface, const TotalReferenceOptions& opt
   return solve_equilibrium(links, links.direct, albedo, links.direct).irradiance;
 }
 
-/// Linear on the place's triangle, unrounded: what links do with bytes is part of what is judged. The map is
-/// open, so that no cell wraps.
+/// Linear interpolation on the triangle of `place`, without rounding, because the rounding of links to bytes
+/// is part of what is tested. The boundary is open, so that no cell wraps.
 double field_at(const TexelVector& field, std::size_t width, const SurfacePoint& place) {
   const std::size_t corner = place.cell;
   const double both = std::min(place.across, place.down);

@@ -6,8 +6,9 @@
 
 namespace heightlight {
 
-/// How a converged total irradiance is made: a final gather. The map is solved with `field_rays` per texel;
-/// then some receivers look at it with 65536 rays, so that its noise is averaged away.
+/// Options for a converged total irradiance. It is made by a final gather: the map is solved with
+/// `field_rays` per texel, then some receivers gather from it with 65536 rays each, so that the solution's
+/// noise is averaged away.
 struct TotalReferenceOptions {
   double albedo = 0.8;
   int receivers = 512;
@@ -15,7 +16,7 @@ struct TotalReferenceOptions {
   std::uint64_t seed = 101;
 };
 
-/// Total irradiance / π: A + ρ Σ weight · E(place seen).
+/// Total irradiance / π: A + ρ Σ weight · E(hit point).
 ReferenceValues make_total_reference(const Surface& surface, const TotalReferenceOptions& options);
 
 }  // namespace heightlight

@@ -1,7 +1,7 @@
-// What a window of a map errs by against the whole map, by the halo in which its own light is found: RMS of A
-// and of the total at an albedo of 0.8 inside a window of 256 × 256 texels, or a third of a small map's
-// sides. Both are walked by the window's own plan, so that what is left is what the window does not know of
-// the rest of the map.
+// The error of a window of a map against the whole map, by the size of the halo in which the window finds its
+// irradiance: RMS of A and of the total at an albedo of 0.8 inside a window of 256 × 256 texels, or of a
+// third of a small map's sides. Both are walked by the window's own plan, so that the error is due only to
+// what the window does not know about the rest of the map.
 #include <OpenImageIO/imageio.h>
 
 #include <CLI/CLI.hpp>
@@ -48,7 +48,7 @@ WindowedTask task_of(const BenchOptions& options) {
   return task;
 }
 
-/// A and the total of the whole map, by a plan.
+/// A and the total of the whole map, found by the given plan.
 Results solve_whole(const WindowedTask& task, const HorizonPlan& plan) {
   const Surface surface = build_surface(load_heightmap(task.map, task.load, ~0ULL).map);
   Results results = solve(surface, {.wanted = {.sky = true, .totals = {task.options.albedo}},

@@ -3,15 +3,15 @@
     import heightlight as hl
 
     brick = hl.synth("brick", 256)             # or hl.read("height.png"), or any 2-D array
-    sky = hl.sky(brick)                        # found when it is asked for
+    sky = hl.sky(brick)                        # each quantity is computed when you ask for it
     sky.sky_view_factor                        # A, 1 = open
-    op = hl.operator(brick)                    # F, which carries light from bounce to bounce
+    op = hl.operator(brick)                    # F, which carries irradiance from one bounce to the next
     total = op.solve(albedo=0.5)               # E/pi of all bounces
-    hl.forms.cubic(sky.sky_view_factor, 0.5)   # what a closed form makes of it
+    hl.forms.cubic(sky.sky_view_factor, 0.5)   # the same total, by a closed form
 
-Arrays have the shape (rows, columns), row 0 at the image's top. World axes: x right, y up the image, z out of
-it. NaN means missing, in heights and in results. Irradiance is E/pi: 1 where nothing is occluded under a sky
-of radiance 1.
+Arrays have the shape (rows, columns), with row 0 at the image's top. World axes: x points right, y up the
+image, z out of it. NaN means missing, in heights and in results. Irradiance is given as E/pi, which is 1 at an
+unoccluded place under a sky of radiance 1.
 """
 
 from importlib import import_module
@@ -59,12 +59,12 @@ __all__ = [
 ]
 
 try:
-    from . import _xarray  # noqa: F401  registers the accessor where xarray is installed
+    from . import _xarray  # noqa: F401  registers the accessor if xarray is installed
 except ImportError:
     pass
 
 
 def __getattr__(name: str) -> Any:
-    if name == "dask":  # what it needs is imported when it is asked for
+    if name == "dask":  # its dependencies are imported only on demand
         return import_module(f"{__name__}.dask")
     raise AttributeError(f"module {__name__} has no attribute {name}")

@@ -1,4 +1,4 @@
-"""Material maps."""
+"""Bakes material maps."""
 
 from __future__ import annotations
 
@@ -14,8 +14,11 @@ from ._settings import integer, one_of, max_distance_of, settings
 
 
 class Bake(dict):
-    """Maps by name, float32 arrays: (rows, columns), or (rows, columns, channels). `evidence` says how they were
-    found and what they err by."""
+    """What `bake()` returns: a dict of maps by name, as float32 arrays (rows, columns) or (rows, columns, channels).
+
+    Attributes:
+        evidence: a dict that says how the maps were computed and what their errors are.
+    """
 
     def __init__(self, native: Any, names: Iterable[str]) -> None:
         super().__init__({name: native.map(name) for name in names})
@@ -23,6 +26,7 @@ class Bake(dict):
 
     @property
     def evidence(self) -> dict[str, Any]:
+        """How the maps were computed, and what their errors are."""
         return json.loads(self._native.evidence)
 
     def save(
@@ -33,13 +37,24 @@ class Bake(dict):
         format: str = "png",
         depth: Union[int, str, None] = None,
     ) -> list[str]:
-        """Writes the maps as `heightlight bake` does, with NAME_bake.json beside them; all or none. Names of the
-        files are returned. `depth`: 8, 16, "half" or "float"; 16 of PNG and float of others where None."""
+        """Writes the maps to files, as `heightlight bake` does, with NAME_bake.json beside them.
+
+        Either all files appear or none.
+
+        Args:
+            folder: where to write the files.
+            name: the beginning of the files' names (NAME).
+            format: "png", "exr" or "tif".
+            depth: 8, 16, "half" or "float"; None: 16 for PNG, float for the other formats.
+
+        Returns:
+            The names of the files.
+        """
         return self._native.save(os.fspath(folder), str(name), str(format), "" if depth is None else str(depth))
 
 
 def maps() -> dict[str, str]:
-    """What `bake` can make: name and description."""
+    """The maps that `bake` can make: a dict from name to description."""
     return _native.material_maps()
 
 
@@ -58,7 +73,8 @@ def bake_choice(
     azimuth_convention: Any = None,
     below_horizontal: Any = "sky",
 ) -> dict[str, Any]:
-    """What maps are made of and how, as the compiled part takes it; `bake` says what is what. Raises ValueError."""
+    """Checks those arguments of `bake` that choose the content of maps, and converts them for the compiled part.
+    Raises ValueError."""
     reflectance = numbers("albedo", albedo)
     if reflectance.ndim > 1 or reflectance.size not in (1, 3):
         raise ValueError("albedo: must be one number, or three")
@@ -100,13 +116,29 @@ def bake(
     memory: Optional[int] = None,
     progress: Any = False,
 ) -> Bake:
-    """Maps of a material: "ao", "multibounce", "bent-normal", "bent-cone", "normal", "ao-n", "horizon", "sh",
-    "height", "specular-occlusion", and the definitions of `definitions()` (`maps()` says what each is), found together.
+    """Bakes maps of a material; all are computed together.
 
-    `albedo` is of multibounce: one number or three. `uniform_ao`: α in place of A. `y_down`: vectors as Direct3D
-    has them. `azimuth_convention`: horizons count "north", clockwise, or "math", from x toward y; where None,
-    north on open maps. `roughness` (GGX's alpha) and `view` (x, y, z toward the viewer, z > 0) are of
-    specular-occlusion. Other arguments as those of `sky()`.
+    Args:
+        height: heights, as for `sky()`.
+        maps: one name or several, of "ao", "multibounce", "bent-normal", "bent-cone", "normal", "ao-n", "horizon",
+            "sh", "height", "specular-occlusion", and the names of `definitions()`. `maps()` describes each.
+        albedo: for multibounce, one number or three (red, green, blue).
+        uniform_ao: True stores α as the ambient occlusion instead of A.
+        y_down: True stores vectors with y pointing down the image, as Direct3D has them.
+        horizon_azimuths: number of azimuths of the horizon map, 1 to 360.
+        azimuth_convention: how azimuths of the horizon map count: "north", clockwise from north, or "math", from x
+            toward y. None: "north" on open maps, "math" on maps that tile.
+        roughness: for specular-occlusion, GGX's alpha.
+        view: for specular-occlusion, the vector (x, y, z) toward the viewer, z > 0.
+
+    The other arguments are those of `sky()`.
+
+    Returns:
+        A `Bake`: the maps by name.
+
+    Raises:
+        ValueError: for arguments that make no sense.
+        MemoryError: if the work does not fit in memory; raised before the memory is taken.
     """
     names = map_names(maps)
     surface, _ = surface_of(height, texel, boundary)

@@ -1,4 +1,4 @@
-"""Methods for AO and bounces beside light transport."""
+"""Compares methods for AO and bounces with light transport."""
 
 from __future__ import annotations
 
@@ -15,8 +15,10 @@ class Comparison:
     """What `compare()` returns.
 
     Attributes:
-        answer: a dict per AO, form and albedo: what the form errs by on exact AO, on GTAO's and on walks'.
-        rows: a dict per method, parameters, variant (a form's name) and quantity: rmse, bias, p99, max, seconds.
+        answer: a list with a dict per AO, form and albedo: the form's error on exact AO, on AO from GTAO and on AO
+            from horizon walks.
+        rows: a list with a dict per method, parameters, variant (the form's name) and quantity. Each has rmse,
+            bias, p99, max and seconds.
     """
 
     def __init__(self, rows: list[dict[str, Any]], answer: list[dict[str, Any]]) -> None:
@@ -47,11 +49,22 @@ def compare(
     memory: Optional[int] = None,
     progress: Any = False,
 ) -> Comparison:
-    """Closed forms, rays, walks and screen-space methods beside light transport on one surface, as `heightlight
-    compare` does: what each errs by, and what it costs.
+    """Compares closed forms, rays, horizon walks and screen-space methods with light transport on one surface.
 
-    `forms`: of one's own, "NAME = FORMULA", fitted to the map. `sky`: radiance (rows, 2 rows, 3), whose direct
-    light is compared (`read_sky`). `azimuths`: of the reference.
+    Finds the error and the cost of each method, as `heightlight compare` does.
+
+    Args:
+        height: heights, as for `sky()`.
+        albedo: one number or several, at which total irradiance is compared.
+        forms: your own closed forms, "NAME = FORMULA"; their constants are fitted to the map.
+        sky: radiance of a sky, (rows, 2 rows, 3), as `read_sky` returns it; its direct irradiance is then compared
+            too.
+        azimuths: number of azimuths of the reference, 2 to 65536.
+
+    The other arguments are those of `sky()`.
+
+    Returns:
+        A `Comparison`.
     """
     surface, _ = surface_of(height, texel, boundary)
     albedos = [real("albedo", value) for value in np.atleast_1d(numbers("albedo", albedo))]

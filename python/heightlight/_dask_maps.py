@@ -1,4 +1,4 @@
-"""Maps of a bake that is done, read window by window from its work folder."""
+"""Maps of a finished bake, read window by window from its work folder."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from ._dask_work import Task
 
 
 def _read_window(work: str, request: str, window: int, first: int, count: int) -> np.ndarray:
-    """Channels of a window of maps that are done: (rows, columns), or with the channels behind."""
+    """Channels of a window of finished maps: (rows, columns), or (rows, columns, channels)."""
     channels = _native.read_baked_window(work, request, window, first, count)
     return channels[0] if count == 1 else np.moveaxis(channels, 0, -1)
 
 
 def _lazy(task: Task, share: Any, name: str, first: int) -> Any:
-    """A map of work that is done, as a Dask array whose chunks are the windows."""
+    """A map of a finished bake, as a Dask array whose chunks are the windows."""
     (rows, columns), window = share.facts["shape"], share.facts["window"]
     channels = share.channels(name)
     chunks: list[tuple[int, ...]] = [tuple(min(window, side - start) for start in range(0, side, window)) for side in (rows, columns)]
@@ -39,7 +39,7 @@ def _lazy(task: Task, share: Any, name: str, first: int) -> Any:
 
 
 def _places(facts: dict[str, Any]) -> dict[str, Any]:
-    """Coordinates of a file's samples: where it says that they lie, else in world units from the lower left corner."""
+    """Coordinates of a file's samples: its georeference, else world units from the lower left corner."""
     rows, columns = facts["shape"]
     step_x, step_y = facts.get("cell", facts["texel"]) if "corner" in facts else facts["texel"]
     left, top = facts.get("corner", (0.0, rows * step_y))
@@ -51,7 +51,7 @@ def _places(facts: dict[str, Any]) -> dict[str, Any]:
 
 
 def dataset_of(task: Task, share: Any, source: Any, texel: Any) -> Any:
-    """All maps, as the source lies."""
+    """All maps as a dataset, with the orientation of the source."""
     variables = {}
     first = 0
     for name in task.maps:

@@ -1,4 +1,4 @@
-"""Runs of a dataset, by the program `heightlight` on a worker."""
+"""Runs of a dataset on a worker, by the program `heightlight`."""
 
 from __future__ import annotations
 
@@ -8,13 +8,14 @@ from typing import Optional
 
 from ._dask_work import own_threads, worker_lock
 
-# What the program says by its exit code: done, or done but for the plots.
+# Exit codes of the program: everything done, or everything except the plots.
 _DONE = (0, 3)
 _WRONG_USAGE = 2
 
 
 def run_program(program: Optional[str], where: tuple[str, str], *arguments: str) -> None:
-    """`heightlight dataset`; `where`: manifest and folder. Raises ValueError and OSError with what it says."""
+    """Runs `heightlight dataset`. `where` is (manifest, folder). Raises ValueError and OSError with the message that
+    the program prints."""
     found = program or shutil.which("heightlight")
     if found is None:
         raise FileNotFoundError("heightlight: no such program on PATH here; install it, or say where it is (command)")
@@ -29,7 +30,7 @@ def run_program(program: Optional[str], where: tuple[str, str], *arguments: str)
 
 
 def run_shard(shard: int, count: int, where: tuple[str, str], limits: tuple[Optional[int], Optional[int]], program: Optional[str]) -> None:
-    """One share of the runs; `limits`: threads and memory."""
+    """Runs shard number `shard` of `count`. `limits` is (threads, memory in bytes)."""
     threads, memory = limits
     arguments = ["--shard", f"{shard}/{count}", "--threads", str(threads or own_threads())]
     if memory is not None:

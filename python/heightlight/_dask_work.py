@@ -1,4 +1,4 @@
-"""A bake by windows on the workers of a cluster: what a process does of it, and what is placed where."""
+"""A bake by windows on the workers of a cluster: the part of each process, and the placing of tasks."""
 
 from __future__ import annotations
 
@@ -23,40 +23,40 @@ from ._settings import settings
 
 Tell = Optional[Callable[[str, int, int, bool], object]]
 
-# Of a task that fails, such as on a file system that is away for a moment. What a lost worker had, Dask places anew by
-# itself.
+# Retries of a task that fails, for example because a file system is unavailable for a moment. Dask itself repeats the
+# tasks of a lost worker.
 _RETRIES = 2
 
-# Seconds that a worker waits to see a file that another machine has written.
+# Seconds that a worker waits for a file that another machine has written to become visible.
 _PATIENCE = 10.0
 
-# Of a worker's limit: Dask pauses workers that hold more.
+# Fraction of a worker's memory limit that is used: Dask pauses workers that hold more.
 _MEMORY_SHARE = 0.8
 
-# Of a worker. Its threads are those of one window at a time, which takes the memory of one window.
+# A worker does one window at a time, with all its threads, so that it needs the memory of one window.
 worker_lock = threading.Lock()
-_shares: dict[str, Any] = {}  # of the bakes at hand: what a process holds of each
+_shares: dict[str, Any] = {}  # what this process holds of each current bake, by mark
 
 
 @dataclass(frozen=True)
 class Task:
-    """What is baked: every process makes its share of the work from it."""
+    """Describes a bake. Every process makes its `_native.Work` from it."""
 
-    mark: str  # of one call of `bake`
+    mark: str  # identifies one call of `bake`
     maps: list[str]
     choice: dict[str, Any]
     accuracy: dict[str, Any]
-    threads: Optional[int]  # of each worker; its own where None
-    memory: Optional[int]  # likewise
+    threads: Optional[int]  # per worker; None: as many as Dask gave the worker
+    memory: Optional[int]  # bytes per worker
     place: dict[str, Any] = field(default_factory=dict)
 
     def share(self, threads: Optional[int] = None) -> Any:
-        """Of a process that has so many threads."""
+        """This process's handle on the work, with that many threads unless the task says otherwise."""
         chosen = settings(**self.accuracy, threads=self.threads or threads, memory=self.memory)
         return _native.Work(chosen, self.maps, self.choice, self.place)
 
     def of_heights(self, checksum: str) -> Task:
-        """The same once it is known what heights it is of: all that results and their files depend on has its checksum."""
+        """The same task once its heights are known: it gets checksums of everything that results and files depend on."""
         surface = [_native.version, checksum, self.place["load"]]
         request = [*surface, self.maps, self.choice, self.accuracy, *(self.place[key] for key in ("format", "depth", "side"))]
         return replace(self, place={**self.place, "surface": _checksum(surface), "request": _checksum(request)})
@@ -67,12 +67,12 @@ def _checksum(told: Any) -> str:
 
 
 def own_threads() -> int:
-    """Of the worker that this runs on."""
+    """Number of threads of the worker that this runs on."""
     return distributed.get_worker().state.nthreads
 
 
 def _joined(task: Task, stage: str) -> Any:
-    """This process's share of the work, as far as that stage."""
+    """This process's handle on the work, brought to that stage."""
     share = _shares.get(task.mark)
     if share is not None and share.stage == stage:
         return share
@@ -95,7 +95,7 @@ def _run_part(part: int, task: Task, stage: str) -> None:
 
 
 def _begin(task: Task) -> Task:
-    """Of a map's file, which one worker reads: rows on their way into the files of windows."""
+    """Begins the bake of a map's file. One worker reads it, row by row, and writes the files of the windows."""
     with worker_lock:
         known = task.of_heights(_native.sha256_of_file(task.place["map"]))
         known.share(own_threads()).open()
@@ -108,7 +108,7 @@ def _finish(task: Task, output: str, name: str) -> tuple[list[str], list[str]]:
 
 
 def _give_block(folder: str, window: int, block: Any, missing: Any) -> tuple[tuple[float, float, int], str]:
-    """Keeps a block of heights for the work; what it tells, and its checksum."""
+    """Stores a block of heights for the work. Returns facts about the block, and its checksum."""
     heights = np.array(numbers("height", block), dtype=np.float64, order="C")
     if missing is not None:
         heights[heights == missing] = np.nan
@@ -120,11 +120,11 @@ def _forget(mark: str) -> None:
 
 
 def results_of(client: Any, futures: list[Any], step: str, tell: Tell) -> list[Any]:
-    """What tasks return, in their order. Where one fails, or this is interrupted, the others are taken back."""
+    """The results of tasks, in the order of the tasks. If one fails, or this is interrupted, the others are cancelled."""
     order = {future.key: i for i, future in enumerate(futures)}
     results: list[Any] = [None] * len(futures)
     waiting = distributed.as_completed(futures)
-    futures.clear()  # those that are done are let go: a lost worker takes none of them along
+    futures.clear()  # finished futures are released, so that a lost worker cannot lose their results
     done = 0
     try:
         for future in waiting:
@@ -139,7 +139,7 @@ def results_of(client: Any, futures: list[Any], step: str, tell: Tell) -> list[A
 
 
 def worker_memory(client: Any) -> Optional[int]:
-    """Bytes that any of the workers may take; None where they have no limit."""
+    """Bytes that every worker may take; None if the workers have no limit."""
     limits = [worker["memory_limit"] for worker in client.scheduler_info()["workers"].values() if worker["memory_limit"]]
     return int(min(limits) * _MEMORY_SHARE) if limits else None
 
@@ -151,13 +151,13 @@ def _check_memory(share: Any, memory: Optional[int]) -> None:
 
 
 def open_file(client: Any, task: Task) -> Task:
-    """Begins the bake of a map's file, or goes on with it."""
+    """Begins the bake of a map's file, or continues an earlier one."""
     return results_of(client, [client.submit(_begin, task, pure=False)], "heights", None)[0]
 
 
 def open_array(client: Any, task: Task, array: Any, texel: tuple[float, float], boundary: str, tell: Tell = None) -> Task:
-    """The same of heights in an array of Dask's, row 0 on top, whose chunks go into the work folder by tasks. `array`:
-    itself, and what stands for a missing sample."""
+    """As open_file, for heights in a Dask array with row 0 on top; tasks write its chunks to the work folder. `array` is
+    (the array, the value of a missing sample or None)."""
     data, missing = array
     side = task.place["side"]
     give = dask.delayed(_give_block, pure=False)
@@ -169,7 +169,7 @@ def open_array(client: Any, task: Task, array: Any, texel: tuple[float, float], 
 
 
 def do_steps(client: Any, task: Task, tell: Tell) -> Any:
-    """All steps of work that is begun; this process's share of it."""
+    """Does all steps of a bake that has begun. Returns this process's handle on the work."""
     share = task.share()
     share.join()
     _check_memory(share, task.memory)
@@ -183,10 +183,10 @@ def do_steps(client: Any, task: Task, tell: Tell) -> Any:
 
 
 def write_files(client: Any, task: Task, output: str, name: str) -> tuple[list[str], list[str]]:
-    """The files of a bake that is done, by a worker; their names, and what a user should know."""
+    """Lets a worker write the files of a finished bake. Returns their names, and the warnings."""
     return results_of(client, [client.submit(_finish, task, output, name, pure=False)], "files", None)[0]
 
 
 def forget(client: Any, task: Task) -> None:
-    """Workers let go what they hold of it."""
+    """Makes the workers release what they hold of the task."""
     client.run(_forget, task.mark, on_error="ignore")

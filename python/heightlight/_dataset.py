@@ -21,7 +21,15 @@ _COLUMNS = ("ao_kind", "bin", "ao_lo", "ao_hi", "ao_mean", "count", "bounce", "m
 
 @dataclass
 class Run:
-    """One map at one relief: its curves, and what its sky says of n (s, and n's mean as the first bounce has it)."""
+    """One map at one relief: its bounce curves, and two estimates of the mean of n.
+
+    Attributes:
+        name: name of the run.
+        material: name of the material, which several runs may share.
+        curves: the bounce curves.
+        expected_seen: s, the mean of n that reciprocity requires, computed from A and the normals alone.
+        measured_seen: the mean of n that follows from the first bounce.
+    """
 
     name: str
     material: str
@@ -31,10 +39,10 @@ class Run:
 
 
 class Dataset(list):
-    """Runs, as `dataset()` makes them."""
+    """A list of `Run`, as `dataset()` returns it."""
 
     def to_pandas(self) -> Any:
-        """All curves below each other, with the columns run and map in front."""
+        """All curves in one pandas.DataFrame, with the columns run and map in front."""
         import pandas
 
         frames = []
@@ -46,7 +54,7 @@ class Dataset(list):
         return pandas.concat(frames, ignore_index=True)
 
     def save(self, path: Union[str, os.PathLike]) -> None:
-        """As the dataset.csv that `heightlight fit` reads: without what comes after the last bounce."""
+        """Writes the dataset.csv that `heightlight fit` reads. It omits the tail, the bounces after the last one."""
         with open(path, "w", newline="", encoding="utf-8") as file:
             table = csv.writer(file, lineterminator="\n")
             table.writerow(("run", "map", *_COLUMNS))
@@ -58,7 +66,7 @@ class Dataset(list):
 
 
 def _material(name: str) -> str:
-    """As `heightlight fit` has it: up to the first _, - or ., without digits at its end."""
+    """The material of a map, as `heightlight fit` names it: up to the first _, - or ., without digits at its end."""
     return re.sub(r"\d+$", "", re.split(r"[_\-.]", name)[0]) or name
 
 
@@ -75,8 +83,21 @@ def dataset(
     memory: Optional[int] = None,
     progress: Any = False,
 ) -> Dataset:
-    """Bounce curves of maps, by name or in order; each as it is, or once per relief share (peak to valley over the
-    width). Maps whose names begin alike are one material, and are left out together by `fit`."""
+    """Finds the bounce curves of several maps.
+
+    Args:
+        maps: a dict from name to heights, or a sequence of heights, which are then named map0, map1, …. Maps whose
+            names are equal up to the first _, - or ., without digits at its end, are one material; `fit` leaves them
+            out together.
+        relief_shares: reliefs as fractions of the width; each map is scaled to each of them. None: each map as it is.
+        bounces: how many bounces are kept apart, 2 to 1000.
+        bins: number of bins of ambient occlusion, 1 to 10000.
+
+    The other arguments are those of `operator()`.
+
+    Returns:
+        A `Dataset` with one `Run` per map and relief.
+    """
     named = maps if isinstance(maps, Mapping) else {f"map{i}": map for i, map in enumerate(maps)}
     shares: list[Optional[float]] = [None] if relief_shares is None else [real("relief_shares", share) for share in relief_shares]
     if any(share is not None and not (0 < share < np.inf) for share in shares):
@@ -119,8 +140,19 @@ def fit(
     threads: Optional[int] = None,
     progress: Any = False,
 ) -> dict[str, Any]:
-    """Closed forms fitted to the curves, and all forms judged on materials that no fit saw, as `heightlight fit`
-    does: the content of its models.json. `forms`: of one's own, "NAME = FORMULA"."""
+    """Fits closed forms to bounce curves, and judges all forms on materials that the fits did not see.
+
+    Does what `heightlight fit` does.
+
+    Args:
+        runs: runs, as `dataset()` returns them.
+        forms: your own closed forms, "NAME = FORMULA".
+        bootstrap: number of bootstrap draws for the confidence intervals of the constants, 20 to 100000.
+        seed, threads, progress: as those of `sky()`.
+
+    Returns:
+        The content of the command's models.json.
+    """
     told = [
         {
             "name": run.name,

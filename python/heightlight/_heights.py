@@ -1,4 +1,4 @@
-"""Heights: from arrays, files and shapes."""
+"""Heights from arrays, files and synthetic shapes."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ from ._settings import integer, real
 
 
 class Heightmap:
-    """Heights with their spacing and boundary; an array wherever one is wanted.
+    """Heights with their spacing and boundary. NumPy functions accept it as an array.
 
     Attributes:
         height: (rows, columns) float32, world units, NaN where the sample is missing.
-        texel: (x, y), distance between samples, world units.
-        boundary: "tile" (the map repeats) or "open" (beyond it there is nothing).
-        base: world height of 0 in `height`.
-        curvature: None, or the refraction k, usually 0.13: heights are lowered by the Earth's curvature about
-            the map's middle where light is found on them. World units are metres, the boundary is "open".
-        facts: of the file that it was read from; empty otherwise.
+        texel: (x, y), distances between samples, world units.
+        boundary: "tile" (the map repeats) or "open" (there is nothing beyond its edge).
+        base: world height of a 0 in `height`.
+        curvature: None, or the refraction coefficient k, usually 0.13. With it, computations lower the heights by the
+            Earth's curvature about the map's middle; world units must be metres, and the boundary "open".
+        facts: a dict of facts about the file that the heights were read from; empty otherwise.
     """
 
     def __init__(
@@ -46,6 +46,7 @@ class Heightmap:
 
     @property
     def shape(self) -> tuple[int, int]:
+        """(rows, columns)."""
         rows, columns = self.height.shape
         return rows, columns
 
@@ -62,8 +63,8 @@ HeightLike = Union[Heightmap, np.ndarray, Sequence[Sequence[float]]]
 
 
 def numbers(name: str, values: Any) -> np.ndarray:
-    """float32 stays as it lies, all else becomes float64; masked samples are NaN. Raises ValueError for what are
-    no real numbers."""
+    """Converts values to an array. float32 is returned without a copy, everything else becomes float64; masked samples
+    become NaN. Raises ValueError for values that are not real numbers."""
     if isinstance(values, np.ma.MaskedArray):
         values = np.ma.filled(values.astype(np.float64), np.nan)
     try:
@@ -78,7 +79,7 @@ def numbers(name: str, values: Any) -> np.ndarray:
 
 
 def spacing(texel: Any, height: np.ndarray) -> tuple[float, float]:
-    """One number or (x, y); where there is none, so that the columns span a width of 1."""
+    """The spacing (x, y) from one number or (x, y). Without it, the columns span a width of 1."""
     if texel is None:
         return (1.0 / height.shape[1],) * 2 if height.ndim == 2 and height.shape[1] > 0 else (1.0, 1.0)
     values = np.asarray(texel)
@@ -89,7 +90,7 @@ def spacing(texel: Any, height: np.ndarray) -> tuple[float, float]:
 
 
 def surface_of(height: Any, texel: Any, boundary: Any) -> tuple[Any, Heightmap]:
-    """The compiled surface, and what it was made of. Arguments that are given win over a Heightmap's own."""
+    """The compiled surface, and the Heightmap that it was made of. Given arguments replace those of a Heightmap."""
     if isinstance(height, Heightmap):
         map = height
         if texel is not None or boundary is not None:
@@ -107,10 +108,16 @@ def surface_of(height: Any, texel: Any, boundary: Any) -> tuple[Any, Heightmap]:
 
 
 def synth(shape: str, size: int = 512, *, seed: int = 1, relief: float = 0.1, width: float = 1.0) -> Heightmap:
-    """A shape of the project's own: brick, cobbles, concrete, fbm, bowl and others (`shapes()` lists them).
+    """Makes a synthetic shape: brick, cobbles, concrete, fbm, bowl and others (`shapes()` lists them).
 
-    Heights run from 0 to `relief`, `size` × `size` of them over a square of side `width`. The same for the same
-    arguments on every machine.
+    The result depends on the arguments alone, not on the machine.
+
+    Args:
+        shape: name of the shape.
+        size: number of rows and of columns, 1 to 32768.
+        seed: seed of the random numbers.
+        relief: heights run from 0 to this, world units.
+        width: side of the square that the map covers, world units.
     """
     size = integer("size", size, 1, 32768)
     heights = _native.synth(str(shape), size, integer("seed", seed, 0, 2**64 - 1))
@@ -120,7 +127,7 @@ def synth(shape: str, size: int = 512, *, seed: int = 1, relief: float = 0.1, wi
 
 
 def shapes() -> dict[str, str]:
-    """What `synth` can make: name and description."""
+    """The shapes that `synth` can make: a dict from name to description."""
     return {name: description for name, (description, _) in _native.shapes().items()}
 
 
@@ -141,7 +148,7 @@ def load_options(
     shrink: Any = 1,
     invert: Any = False,
 ) -> dict[str, Any]:
-    """How a file becomes heights, as the compiled part takes it; `read` says what is what."""
+    """Checks the arguments of `read`, and converts them for the compiled part."""
     options: dict[str, Any] = {"shrink": integer("shrink", shrink, 1), "invert": bool(invert)}
     for name, value in (("relief", relief), ("relief_share", relief_share), ("width", width), ("no_data", no_data), ("scale", scale), ("offset", offset)):
         if value is not None:
@@ -181,15 +188,34 @@ def read(
     invert: bool = False,
     curvature: Optional[float] = None,
 ) -> Heightmap:
-    """A heightmap from a file: PNG, EXR, TIFF, Esri ASCII grid, JPEG, TGA, HDR, .npy, SRTM's .hgt, or raw samples.
+    """Reads a heightmap from a file: PNG, EXR, TIFF, Esri ASCII grid, JPEG, TGA, HDR, .npy, SRTM's .hgt, or raw samples.
 
-    Integer samples are levels without a unit: they are stretched to `relief`, or `relief_share` of the width (a
-    tenth). Float samples are heights as they are. `texel` (one spacing or (x, y)) or `width` says how far apart
-    samples are; a GeoTIFF and an Esri grid say so themselves, and "auto" turns degrees into metres. `scale` and
-    `offset` make heights of levels: height per stored value, and of a stored 0. Raw samples want their `size` (rows,
-    columns), and `big_endian` where their highest byte comes first. `curvature` as Heightmap has it. What a user should know of the file is warned of.
+    Integer samples without a unit are levels, which are stretched to a relief. Float samples are heights as they are.
+    Oddities of the file are reported as Python warnings.
 
-    Raises OSError naming the file that cannot be read, ValueError for arguments that make no sense.
+    Args:
+        path: the file.
+        relief: relief to which heights are stretched, world units.
+        relief_share: the same, as a fraction of the width. Levels are stretched to 0.1 of the width if neither is
+            given.
+        width: world width of the map, which determines the distance between samples.
+        texel: distance between samples, world units: one number or (x, y). A GeoTIFF and an Esri grid give it
+            themselves; "auto" turns degrees into metres.
+        boundary: "tile" or "open". None: "open" for a file that gives its spacing, else "tile".
+        no_data: the stored value that means missing, besides the one that the file names.
+        part: part of an EXR, by name or by number from 0.
+        channel: channel, by name or by number from 0.
+        size: (rows, columns), for raw samples only.
+        big_endian: whether the highest byte of raw samples comes first.
+        scale: height per stored value.
+        offset: height of a stored 0.
+        shrink: averages shrink × shrink samples into one.
+        invert: True if larger stored values are lower.
+        curvature: as in `Heightmap`.
+
+    Raises:
+        OSError: naming the file, if it cannot be read.
+        ValueError: for arguments that make no sense.
     """
     options = load_options(
         relief=relief,
@@ -221,6 +247,8 @@ def read(
 
 
 def read_sky(path: Union[str, os.PathLike]) -> np.ndarray:
-    """Radiance of a sky, latitude by longitude, (rows, 2 rows, 3) float32, from an EXR or HDR image. Its middle
-    looks to +y, its upper edge is the zenith. Raises OSError naming the file."""
+    """Reads the radiance of a sky by latitude and longitude, (rows, 2 rows, 3) float32, from an EXR or HDR image.
+
+    The middle of the image looks toward +y; its upper edge is the zenith. Raises OSError naming the file.
+    """
     return _native.read_sky(os.fspath(path))

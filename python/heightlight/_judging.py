@@ -1,4 +1,4 @@
-"""A closed form on trial: what it errs by on maps."""
+"""Finds the error of a closed form on maps."""
 
 from __future__ import annotations
 
@@ -16,23 +16,26 @@ from ._settings import integer, real
 
 _INPUTS = ("A", "alpha", "n", "s", "W")
 _ALBEDO = ("rho", "albedo")
-_MOST_TEXELS = 65536  # of a map, in fits
+_MOST_TEXELS = 65536  # of one map, used in fits
 
 
 @dataclass
 class Judgement:
-    """What `judge()` returns. All errors are of E/π, the form less light transport.
+    """What `judge()` returns. All errors are in E/π: the form minus light transport.
 
     Attributes:
-        rmse, bias: over all maps, which count alike, and albedos.
-        by_albedo: {albedo: rmse}. by_map: {name: rmse}.
-        by_ao: per filled bin of the form's AO: ao and count, and rmse and bias by albedo, (albedos, bins). Empty for
-            a form of neither AO.
-        constants: fitted to all maps; empty where the form has none.
-        left_out: rmse where each material is judged by constants that were fitted to the others; None without
-            constants, or with one material.
-        outside_share: of the texels, where the form says nothing (NaN); they are in no error.
-        reference_rmse: what light transport itself errs by, the largest of its checks.
+        rmse: RMSE over all maps and albedos; each map has the same weight.
+        bias: mean error over all maps and albedos, with the same weights.
+        by_albedo: RMSE by albedo.
+        by_map: RMSE by name of the map.
+        by_ao: for each filled bin of the form's AO: "ao", its mean, and "count", both (bins); and "rmse" and "bias" by
+            albedo, both (albedos, bins). Empty if the form uses neither A nor alpha.
+        constants: the form's constants, fitted to all maps; empty if it has none.
+        left_out: RMSE if each material is judged with constants that were fitted to the other materials; None without
+            constants, or with only one material.
+        outside_share: fraction of the values, over texels and albedos, for which the form gives no finite number; no
+            error includes them.
+        reference_rmse: error of light transport itself, the largest that its checks found.
     """
 
     rmse: float
@@ -125,7 +128,7 @@ def _solve(name: str, height: HeightLike, wanted: Iterable[str], albedos: list[f
 
 
 def _evaluate(form: _Signature, map: _Map, albedos: list[float], constants: Iterable[float]) -> np.ndarray:
-    """albedos × texels."""
+    """The form's values, (albedos, texels)."""
     values = []
     for albedo in albedos:
         given = {**map.inputs, form.albedo: albedo, **dict(zip(form.constants, constants))}
@@ -169,16 +172,26 @@ def judge(
     memory: Optional[int] = None,
     progress: Any = False,
 ) -> Judgement:
-    """What a closed form errs by beside light transport.
+    """Finds the error of a closed form against light transport.
 
     Args:
-        form: a function of arrays, whose arguments say what it wants: `rho` (or `albedo`), and of a texel `A`,
-            `alpha`, `n`, `s` or `W` (see `heightlight.forms`). Any other argument is a constant: it is fitted,
-            from its default on (1 where it has none), which wants scipy. Or a closed form of `heightlight.forms`,
-            or "NAME = FORMULA".
-        maps: by name, or in order. Names that begin alike, up to the first _ - or ., are one material; each
-            material is judged by constants that were fitted to the others (`left_out`).
-        albedos: at which it is judged. bins: of AO. Other arguments as those of `operator()`.
+        form: a function of arrays, whose parameter names say what it uses: `rho` (or `albedo`), and one or more of
+            `A`, `alpha`, `n`, `s` and `W` (see `heightlight.forms`). Any other parameter is a constant. Constants are
+            fitted, starting from their defaults (1 without a default); this requires scipy. `form` may also be a
+            closed form of `heightlight.forms`, or a text "NAME = FORMULA".
+        maps: a dict from name to heights, or a sequence of heights. Maps whose names are equal up to the first _ - or
+            ., without digits at its end, are one material; each material is also judged with constants that were
+            fitted to the others (`left_out`).
+        albedos: the albedos at which the form is judged.
+        bins: number of bins of AO, 1 to 10000.
+
+    The other arguments are those of `operator()`.
+
+    Returns:
+        A `Judgement`.
+
+    Raises:
+        ValueError: for arguments that make no sense.
     """
     signature = _read_signature(form)
     rhos = [real("albedos", albedo) for albedo in albedos]
@@ -209,7 +222,7 @@ def judge(
 
 
 def _mean(values: np.ndarray) -> np.ndarray:
-    """Along rows, of what is finite; NaN where nothing is."""
+    """Mean along each row of the finite values; NaN in rows without any."""
     finite = np.isfinite(values)
     sums = np.where(finite, values, 0).sum(axis=1)
     return np.where(finite.any(axis=1), sums / np.maximum(finite.sum(axis=1), 1), np.nan)

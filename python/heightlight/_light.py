@@ -1,4 +1,4 @@
-"""Light of one's own: the sun, and skies that are not the same all over."""
+"""Direct irradiance of the sun and of uneven skies."""
 
 from __future__ import annotations
 
@@ -22,14 +22,21 @@ def sun_irradiance(
     threads: Optional[int] = None,
     progress: Any = False,
 ) -> np.ndarray:
-    """E₀/π of the sun alone, over exact horizons: (rows, columns) float64, 1 where a plane faces it, so that a level
-    open plain has sin(elevation). `Operator.solve(albedo, direct=…)` finds its bounces.
+    """Finds the direct irradiance E₀/π of the sun alone, with exact horizons.
+
+    `Operator.solve(albedo, direct=…)` finds the total with its bounces.
 
     Args:
-        azimuth: of the sun's middle, in degrees clockwise from north, which is the array's top.
-        elevation: above the horizontal, in degrees, 0 to 90.
-        diameter: of its disc, in degrees; 0: a point.
-    Other arguments as those of `sky()`.
+        height: heights, as for `sky()`.
+        azimuth: azimuth of the sun's centre, in degrees clockwise from north, which is the array's top.
+        elevation: elevation of the sun's centre above the horizontal, in degrees, 0 to 90.
+        diameter: diameter of the sun's disc, in degrees; 0: a point.
+
+    The other arguments are those of `sky()`.
+
+    Returns:
+        (rows, columns) float64, in units in which a plane that faces the sun has 1; a level open plain has
+        sin(elevation).
     """
     surface, _ = surface_of(height, texel, boundary)
     chosen = settings(2e-3, None, None, 1, threads, None, progress)
@@ -49,13 +56,20 @@ def sky_irradiance(
     threads: Optional[int] = None,
     progress: Any = False,
 ) -> np.ndarray:
-    """E₀/π of a sky: (rows, columns) float64, or (rows, columns, 3) where it has colours.
+    """Finds the direct irradiance E₀/π of a sky.
 
     Args:
-        sky: "overcast" (of the CIE: a level open plain has 1), or radiance by latitude and longitude, (n, 2 n, 3),
-            as `read_sky` gives it: rows from the zenith down, the array's top (north) in the middle.
-        error: RMSE wanted; azimuths are doubled until a check by exact horizons finds it, or 512.
-    Other arguments as those of `sky()`.
+        height: heights, as for `sky()`.
+        sky: "overcast", the CIE's overcast sky, under which a level open plain has 1; or radiance by latitude and
+            longitude, (n, 2 n, 3), as `read_sky` returns it, with rows from the zenith down and the array's top
+            (north) in the middle.
+        error: RMSE wanted. The number of azimuths is doubled until a check by exact horizons finds that error, up to
+            512.
+
+    The other arguments are those of `sky()`.
+
+    Returns:
+        (rows, columns) float64, or (rows, columns, 3) if the sky has colours.
     """
     surface, _ = surface_of(height, texel, boundary)
     chosen = settings(error, azimuths, None, seed, threads, None, progress)

@@ -1,4 +1,4 @@
-"""The compiled part of the package. Use the package, which checks and documents what goes in here."""
+"""The compiled part of the package. Use the package itself, which checks and documents the arguments."""
 
 from typing import Any, Callable, Optional, Sequence
 

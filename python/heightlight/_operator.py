@@ -1,4 +1,4 @@
-"""Light from bounce to bounce."""
+"""Irradiance of the bounces."""
 
 from __future__ import annotations
 
@@ -15,11 +15,14 @@ AlbedoLike = Union[float, Sequence[float], np.ndarray]
 
 
 class Curves(dict):
-    """Bounce curves: a dict of columns of one length, a row per kind of AO, filled bin and bounce.
+    """Bounce curves: a dict of columns of equal length, with one row per kind of AO, filled bin and bounce.
 
-    ao_kind ("ambient_occlusion", α, or "sky_view_factor", A), bin, ao_lo, ao_hi, ao_mean, count; bounce (−1: all
-    later ones together); mean, stddev, p05, p50, p95 of E_b/π at albedo 1 over the bin's texels. `bins` says how
-    many bins there were for the rows to fill.
+    The columns are ao_kind ("ambient_occlusion", which is α, or "sky_view_factor", which is A); bin, ao_lo, ao_hi,
+    ao_mean and count of the bin; bounce, where −1 is the tail, all later bounces together; and mean, stddev, p05, p50
+    and p95 of E_b/π at albedo 1 over the bin's texels.
+
+    Attributes:
+        bins: number of bins, including the empty ones, which have no rows.
     """
 
     def __init__(self, tables: Iterable[dict[str, Any]]) -> None:
@@ -32,26 +35,29 @@ class Curves(dict):
         self.bins: int = parts[0]["bins"]
 
     def over(self, kind: str) -> dict[str, Any]:
-        """The rows of one kind of AO, with `kind` and `bins`."""
+        """The rows of one kind of AO, as a dict that also has `kind` and `bins`."""
         rows = self["ao_kind"] == kind
         return {"kind": kind, "bins": self.bins, **{name: column[rows] for name, column in self.items() if name != "ao_kind"}}
 
     def bounce(self, number: int, kind: str = "ambient_occlusion") -> tuple[np.ndarray, np.ndarray]:
-        """(AO, mean E_b/π) of the bins, to plot."""
+        """Mean AO and mean E_b/π at albedo 1 of each filled bin, as two arrays to plot."""
         rows = (self["bounce"] == number) & (self["ao_kind"] == kind)
         return self["ao_mean"][rows], self["mean"][rows]
 
     def to_pandas(self) -> Any:
-        """As a pandas.DataFrame. Raises ImportError without pandas."""
+        """The columns as a pandas.DataFrame. Raises ImportError without pandas."""
         import pandas
 
         return pandas.DataFrame(dict(self))
 
 
 class Operator:
-    """F, which carries irradiance from bounce to bounce over one surface: E = direct + F ρ E.
+    """The operator F of one surface, which carries irradiance from one bounce to the next: E = direct + F ρ E.
 
-    `op @ e` is F e. Made by `operator()`; two threads may use one at once.
+    `op @ e` is F e. `operator()` makes it. Two threads may use one operator at the same time.
+
+    Attributes:
+        shape: (rows, columns).
     """
 
     def __init__(self, surface: Any, chosen: Any, direct: Any = None) -> None:
@@ -62,28 +68,28 @@ class Operator:
 
     @property
     def direct(self) -> np.ndarray:
-        """E₀/π under the sky, (rows, columns) float64: A, which F complements to 1."""
+        """E₀/π under an even sky, which is A, (rows, columns) float64. Together with F applied to ones, it gives 1."""
         return self._native.direct
 
     @property
     def sky_view_factor(self) -> np.ndarray:
-        """A, (rows, columns) float32."""
+        """The sky view factor A, (rows, columns) float32 in [0, 1]; 1 = open."""
         return self._native.sky_view_factor
 
     @property
     def ambient_occlusion(self) -> np.ndarray:
-        """α, (rows, columns) float32."""
+        """The uniform ambient occlusion α, (rows, columns) float32 in [0, 1]; 1 = open."""
         return self._native.ambient_occlusion
 
     @property
     def seen(self) -> np.ndarray:
-        """n, the mean sky view factor of what each texel sees, (rows, columns) float32: with A it gives the total
-        at any albedo by `forms.seen_stored`."""
+        """n, the mean sky view factor of what each texel sees of the surface, (rows, columns) float32. From A and n,
+        `forms.seen_stored` gives the total at any albedo."""
         return self._native.seen()
 
     @property
     def evidence(self) -> dict[str, Any]:
-        """Of the last `solve`, `bounces`: how it was found, what it errs by against exact walks. Empty before."""
+        """How the last `solve` or `bounces` was computed, and its error against exact walks. Empty before the first."""
         return json.loads(self._evidence) if self._evidence else {}
 
     def _gather(self, irradiance: np.ndarray) -> np.ndarray:
@@ -92,28 +98,31 @@ class Operator:
         return gathered
 
     def __matmul__(self, irradiance: Any) -> np.ndarray:
-        """F applied to (rows, columns), or to a stack (n, rows, columns); float64. NaN counts as 0."""
+        """F applied to irradiance (rows, columns), or to a stack (n, rows, columns); float64. NaN counts as 0."""
         values = numbers("irradiance", irradiance)
         if values.ndim == 3:
             return np.stack([self._gather(one) for one in values]) if len(values) else np.empty(values.shape)
         return self._gather(values)
 
     def bounces(self, count: int = 20) -> np.ndarray:
-        """E_b/π at albedo 1, b = 0 … count: (count + 1, rows, columns) float64. At albedo ρ they are ρ^b times as
-        much. What their sum leaves of 1 is what all later ones bring."""
+        """E_b/π of each bounce b = 0 … count at albedo 1: (count + 1, rows, columns) float64.
+
+        At albedo ρ, multiply bounce b by ρ^b. All later bounces together bring 1 minus the sum of these.
+        """
         bounces, _, self._evidence = self._native.bounces(integer("bounces", count, 1, 1000))
         return np.stack(bounces)
 
     def solve(self, albedo: AlbedoLike, direct: Optional[np.ndarray] = None) -> np.ndarray:
-        """E/π of all bounces.
+        """Finds E/π, the total irradiance of all bounces.
 
         Args:
             albedo: one number, three (red, green, blue), an array (rows, columns), or (rows, columns, 3); in [0, 1].
-            direct: E₀/π of light of one's own, (rows, columns) or (rows, columns, 3), as `sun_irradiance` and
-                `sky_irradiance` find it; else an even sky's.
+            direct: E₀/π of your own light, (rows, columns) or (rows, columns, 3), as `sun_irradiance` and
+                `sky_irradiance` return it. None: E₀/π of an even sky.
 
-        Returns (rows, columns) float64, or (rows, columns, 3) for three channels. What `simulate` writes, before
-        it becomes float32.
+        Returns:
+            (rows, columns) float64, or (rows, columns, 3) for three channels. These are the values that `simulate`
+            writes after conversion to float32.
         """
         constant, varying = split_albedo(albedo, self.shape)
         light = [] if direct is None else split_direct(direct)
@@ -121,7 +130,10 @@ class Operator:
         return totals[0] if len(totals) == 1 else np.stack(totals, axis=-1)
 
     def curves(self, bins: int = 100, bounces: int = 20) -> Curves:
-        """Bounce curves over α and over A, as `simulate` writes them to curves.csv."""
+        """Bounce curves over α and over A, as `simulate` writes them to curves.csv.
+
+        `bins` is the number of bins, 1 to 10000; `bounces` is how many bounces are kept apart, 1 to 1000.
+        """
         over_alpha, over_sky, _, _ = self._curves(bins, bounces)
         return Curves((over_alpha, over_sky))
 
@@ -129,8 +141,10 @@ class Operator:
         return self._native.curves(integer("bins", bins, 1, 10000), integer("bounces", bounces, 1, 1000))
 
     def as_linear_operator(self, albedo: Optional[AlbedoLike] = None) -> Any:
-        """As a scipy.sparse.linalg.LinearOperator on rows × columns numbers, 0 where the sample is missing: F, or
-        I − F ρ where an albedo is given (one channel), whose solution of `op.direct` is `op.solve(albedo)`."""
+        """F as a scipy.sparse.linalg.LinearOperator on vectors of rows × columns numbers, 0 where a sample is missing.
+
+        With an albedo (one channel), it is I − F ρ instead; solving it for `op.direct` gives `op.solve(albedo)`.
+        """
         from scipy.sparse.linalg import LinearOperator
 
         size = self.shape[0] * self.shape[1]
@@ -147,7 +161,7 @@ class Operator:
 
 
 def split_direct(direct: Any) -> list[np.ndarray]:
-    """Maps per channel."""
+    """A list of maps, one per channel."""
     values = numbers("direct", direct)
     if values.ndim == 3:
         return [np.ascontiguousarray(values[:, :, c]) for c in range(values.shape[2])]
@@ -155,7 +169,7 @@ def split_direct(direct: Any) -> list[np.ndarray]:
 
 
 def split_albedo(albedo: Any, shape: tuple[int, int]) -> tuple[list[float], list[np.ndarray]]:
-    """Constants per channel, or maps per channel; the other is empty."""
+    """One constant per channel, or one map per channel; the other list is empty."""
     values = numbers("albedo", albedo)
     if values.ndim == 0:
         return [float(values)], []
@@ -183,11 +197,16 @@ def operator(
     memory: Optional[int] = None,
     progress: Any = False,
 ) -> Operator:
-    """The operator of a surface: form factors, found once, for any number of solutions.
+    """Makes the operator F of a surface, once for any number of solutions.
 
-    Arguments as those of `sky()`. `error` is the RMSE wanted of A and of totals at albedos up to 0.8; with
-    horizon walks no form factor is stored, with `rays` or error = 0 all of them are. `direct` is light of one's own
-    whose totals are to have that error, such as the sun's: walks are planned for it, else for the sky's.
+    With horizon walks no form factor is stored; with `rays`, or with error = 0, all of them are.
+
+    Args:
+        error: RMSE wanted of A, and of totals at albedos up to 0.8; 0: exact slices.
+        direct: E₀/π of your own light, such as the sun's, whose totals are to have that error; walks are planned for
+            it. None: they are planned for an even sky.
+
+    The other arguments are those of `sky()`.
     """
     surface, _ = surface_of(height, texel, boundary)
     return Operator(surface, settings(error, azimuths, rays, seed, threads, memory, progress), direct)

@@ -1,4 +1,4 @@
-"""How things are found: the arguments that all calls share."""
+"""The arguments on accuracy and limits that all calls share."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from . import _native
 
 
 class _Bars:
-    """One tqdm bar per step."""
+    """Shows progress as one tqdm bar per step."""
 
     def __init__(self, tqdm: Any) -> None:
         self._tqdm = tqdm
@@ -30,7 +30,7 @@ class _Bars:
 
 
 def progress_of(wanted: Any) -> Any:
-    """A function of (name, done, total, ended), or None."""
+    """The progress function (name, done, total, ended) for the argument `progress`, or None."""
     if callable(wanted):
         return wanted
     if not wanted:
@@ -43,7 +43,7 @@ def progress_of(wanted: Any) -> Any:
 
 
 def integer(name: str, value: Any, least: int = 0, most: int = 2**31 - 1) -> int:
-    """A whole number in a range. Raises ValueError naming it."""
+    """Checks that a value is a whole number in a range. Raises ValueError naming the argument."""
     try:
         number = operator.index(value)
     except TypeError:
@@ -54,7 +54,7 @@ def integer(name: str, value: Any, least: int = 0, most: int = 2**31 - 1) -> int
 
 
 def real(name: str, value: Any) -> float:
-    """One number. Raises ValueError naming it."""
+    """Converts a value to a float. Raises ValueError naming the argument."""
     try:
         return float(value)
     except (TypeError, ValueError, OverflowError):
@@ -70,7 +70,7 @@ def settings(
     memory: Any = None,
     progress: Any = False,
 ) -> Any:
-    """As the compiled part takes them. Raises ValueError for what is out of its range."""
+    """The settings for the compiled part. Raises ValueError for an argument out of its range."""
     return _native.Settings(
         error=real("error", error),
         azimuths=0 if azimuths is None else integer("azimuths", azimuths, 2, 65536),
@@ -83,7 +83,7 @@ def settings(
 
 
 def one_of(name: str, value: Any, known: tuple[str, ...]) -> str:
-    """A word. Raises ValueError naming it, and what it may be."""
+    """Checks that a value is one of the known words. Raises ValueError naming the argument and these words."""
     if value not in known:
         raise ValueError(f"{name} {value!r}: must be one of {', '.join(known)}")
     return value
@@ -93,5 +93,5 @@ FALLOFFS = ("none", "linear", "sqrt", "exponential")
 
 
 def max_distance_of(max_distance: Any, falloff: Any) -> tuple[Optional[float], str]:
-    """A distance in world units, or None, and how occluders within it fade."""
+    """Checks a maximum distance, in world units or None, and the falloff of occluders within it."""
     return (None if max_distance is None else real("max_distance", max_distance)), one_of("falloff", falloff, FALLOFFS)

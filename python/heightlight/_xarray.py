@@ -1,4 +1,4 @@
-"""The accessor `DataArray.heightlight`, where xarray is installed."""
+"""The accessor `DataArray.heightlight`, which exists if xarray is installed."""
 
 from __future__ import annotations
 
@@ -20,19 +20,20 @@ _STORED_AS = ("_FillValue", "scale_factor", "add_offset")
 
 @xr.register_dataarray_accessor("heightlight")
 class HeightlightAccessor:
-    """Light on a terrain, `da.heightlight`: spacing from its coordinates, which results keep with its attributes
-    and its CRS.
+    """Visibility and irradiance on a terrain in a DataArray `da`, as `da.heightlight`.
 
-    The last two dimensions are rows (y) and columns (x), in metres, evenly spaced. Coordinates in degrees are
-    refused: reproject first, or give `texel` in metres. The boundary is "open" unless said otherwise. Samples
-    equal to the declared no-data are missing.
+    The spacing comes from the coordinates. Results keep the coordinates, the attributes and the CRS.
+
+    The array has two dimensions, rows (y) and columns (x), whose coordinates are in metres and evenly spaced.
+    Coordinates in degrees are refused: reproject first, or give `texel` in metres. The boundary is "open" unless you
+    say otherwise. Samples equal to the declared no-data value are missing.
     """
 
     def __init__(self, array: xr.DataArray) -> None:
         self._array = array
 
     def heightmap(self, texel: Any = None, boundary: str = "open") -> Heightmap:
-        """The heights, row 0 on top whichever way y runs, with their spacing."""
+        """The heights with their spacing, as a `Heightmap` with row 0 on top whether y rises or falls."""
         array = self._array
         self._check_dimensions()
         heights = np.array(array.values, dtype=np.float64)
@@ -40,7 +41,7 @@ class HeightlightAccessor:
         if missing is not None:
             heights[heights == missing] = np.nan
         x, y = self._steps(texel)
-        if y > 0:  # rows go up
+        if y > 0:  # the rows run upwards
             heights = heights[::-1]
         if x < 0:
             heights = heights[:, ::-1]
@@ -48,40 +49,53 @@ class HeightlightAccessor:
         return Heightmap(heights, spacing, boundary)
 
     def sky_view_factor(self, *, texel: Any = None, boundary: str = "open", **options: Any) -> xr.DataArray:
-        """A, 1 = open. Options as those of `heightlight.sky`."""
+        """The sky view factor A, 1 = open. `options` are those of `heightlight.sky`."""
         found = sky(self.heightmap(texel, boundary), **options)
         return self._like(found.sky_view_factor, "sky_view_factor", "sky view factor", texel)
 
     def ambient_occlusion(self, *, texel: Any = None, boundary: str = "open", **options: Any) -> xr.DataArray:
-        """α, the plain share of the hemisphere, 1 = open."""
+        """The ambient occlusion α, the fraction of the hemisphere's solid angle that sees the sky; 1 = open. `options` are
+        those of `heightlight.sky`."""
         found = sky(self.heightmap(texel, boundary), **options)
         return self._like(found.ambient_occlusion, "ambient_occlusion", "share of the hemisphere that sees the sky", texel)
 
     def horizons(self, azimuths: Any, *, texel: Any = None, boundary: str = "open", **options: Any) -> xr.DataArray:
-        """Elevations of the horizon, rad, with the dimension `azimuth`, rad, counted from x toward y."""
+        """Elevations of the horizon, in radians, with a first dimension `azimuth`, in radians from x toward y.
+
+        `azimuths` are as in `Sky.horizons`; `options` are those of `heightlight.sky`.
+        """
         angles = angles_of(azimuths)
         found = sky(self.heightmap(texel, boundary), **options).horizons(angles)
         maps = [self._like(one, "horizon", "elevation of the horizon", texel, "rad") for one in found]
         return xr.concat(maps, xr.Variable("azimuth", angles, {"units": "rad"}))
 
     def definition(self, name: str, *, texel: Any = None, boundary: str = "open", **options: Any) -> xr.DataArray:
-        """What terrain science calls by that name: "svf-horizontal", "openness-positive" … (`heightlight.definitions()`)."""
+        """A quantity that terrain science defines: "svf-horizontal", "openness-positive" …
+
+        `heightlight.definitions()` lists the names. `options` are those of `heightlight.sky`.
+        """
         found = sky(self.heightmap(texel, boundary), **options).definition(name)
         return self._like(found, name.replace("-", "_"), definitions()[name], texel, "rad" if name.startswith("open") else "1")
 
     def sun_irradiance(
         self, azimuth: float, elevation: float, *, texel: Any = None, boundary: str = "open", **options: Any
     ) -> xr.DataArray:
-        """E₀/π of the sun alone, 1 where a plane faces it; angles in degrees, azimuths clockwise from north. Its bounces:
-        `irradiance(albedo, direct=…)`."""
+        """The direct irradiance E₀/π of the sun alone, in units in which a plane that faces the sun has 1.
+
+        Angles are in degrees, the azimuth clockwise from north. `irradiance(albedo, direct=…)` finds the total with
+        the bounces. `options` are those of `heightlight.sun_irradiance`.
+        """
         found = sun_irradiance(self.heightmap(texel, boundary), azimuth, elevation, **options)
         return self._like(found, "sun_irradiance", "direct irradiance of the sun over that of a plane that faces it", texel)
 
     def irradiance(
         self, albedo: Any = 0.2, *, direct: Optional[Any] = None, texel: Any = None, boundary: str = "open", **options: Any
     ) -> xr.DataArray:
-        """E/π of all bounces, 1 = a level open plane under a sky of radiance 1. `albedo`: a number, or an array of
-        the map's shape. `direct`: E₀/π of light of one's own."""
+        """The total irradiance E/π of all bounces; a level open plane under a sky of radiance 1 has 1.
+
+        `albedo` is a number, or an array of the map's shape. `direct` is E₀/π of your own light, of the map's shape;
+        None: that of an even sky. `options` are those of `heightlight.operator`.
+        """
         light = None if direct is None else self._turn(np.asarray(direct), texel)
         op = operator(self.heightmap(texel, boundary), direct=light, **options)
         reflectance = albedo if np.ndim(albedo) == 0 else self._turn(np.asarray(albedo), texel)
@@ -94,7 +108,7 @@ class HeightlightAccessor:
             raise ValueError(f"height: has the dimensions {', '.join(map(str, dims))}, and must have two; choose a band")
 
     def _missing(self) -> Any:
-        """What stands for a missing sample, where the array declares it."""
+        """The value that stands for a missing sample; None if the array declares none."""
         return self._array.attrs.get("_FillValue", self._array.encoding.get("_FillValue"))
 
     def _coordinates(self, axis: int) -> np.ndarray:
@@ -122,12 +136,12 @@ class HeightlightAccessor:
         return in_crs or any(units in _DEGREES for units in self._units())
 
     def _counts_samples(self, x: np.ndarray, y: np.ndarray) -> bool:
-        """As rioxarray numbers the pixels of a file that has no place on earth."""
+        """Whether the coordinates merely count samples, as those that rioxarray gives to a file without a georeference."""
         numbered = all(np.array_equal(values, np.arange(values.size) + 0.5) for values in (x, y))
         return numbered and not self._crs() and not any(self._units())
 
     def _steps(self, texel: Any) -> tuple[float, float]:
-        """Along x and y; with their signs, which say which way the axes run."""
+        """The steps along x and y; their signs say in which direction the axes run."""
         if texel is not None:
             signs = []
             for axis in (1, 0):
@@ -162,6 +176,6 @@ class HeightlightAccessor:
         return result
 
     def _attributes(self, meaning: str, units: str) -> dict[str, Any]:
-        """The array's own, as far as they are true of a result."""
+        """The array's attributes, as far as they are true of a result, with the result's meaning and units."""
         kept = {key: value for key, value in self._array.attrs.items() if key not in _STORED_AS}
         return {**kept, "long_name": meaning, "units": units}

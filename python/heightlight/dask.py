@@ -4,12 +4,12 @@
     import heightlight as hl
 
     client = Client("scheduler:8786")
-    maps = hl.dask.bake("alps.tif", client, maps=("ao", "bent-normal"))   # an xarray.Dataset, read when it is asked for
+    maps = hl.dask.bake("alps.tif", client, maps=("ao", "bent-normal"))   # an xarray.Dataset, read lazily
     tables = hl.dask.dataset("study.json", client, "study")
 
-This module only places windows and runs on workers: what they find is what one process finds, to the last bit,
-however many there are and whichever are lost. Workers and the client share one file system, where all of it lies,
-and the package is installed on each of them.
+This module only distributes windows and runs to workers. The results are those of one process, to the last bit,
+however many workers there are and whichever are lost. The client and all workers must share one file system, which
+holds all files, and the package must be installed on each of them.
 """
 
 from __future__ import annotations
@@ -67,28 +67,45 @@ def bake(
     progress: Any = False,
     **reading: Any,
 ) -> Any:
-    """Maps of a material, as `heightlight.bake` makes them, window by window on the workers of a cluster.
+    """Bakes maps of a material, as `heightlight.bake` does, window by window on the workers of a cluster.
 
-    `source`: the path of a heightmap, which other arguments of `heightlight.read` may go with; or an xarray.DataArray
-    with the coordinates that its accessor `heightlight` understands. Chunks of Dask come to the workers that they are
-    for, and never together into one process. `client`: a distributed.Client.
+    The same call continues what an earlier one left in the work folder; a different call begins anew. Hence datasets
+    that are to be read at the same time need separate work folders. A total that turns out to miss `error` is computed
+    once more, as in `heightlight.bake`.
 
-    Returned is an xarray.Dataset, a variable per map, with the source's coordinates (of a file that has no place, world
-    units from its lower left corner), and for maps of several channels a dimension NAME-channel; its attribute
-    `evidence` is Bake's, as JSON. Its chunks are the windows; they are read from the work folder when they are asked for, so that the folder must stay as long as the dataset is used.
-    With `output`, a folder, the maps are written there instead, as `heightlight bake` writes them: GeoTIFFs of terrain,
-    PNGs of materials, or in `format` and `depth` as Bake.save has them, and NAME_bake.json. Then their paths are
-    returned, and the work folder goes away.
+    Args:
+        source: the path of a heightmap; or an xarray.DataArray with coordinates that its accessor `heightlight`
+            understands. Chunks of a Dask array go to the workers that need them; no process gets all of them.
+        client: a distributed.Client.
+        maps: names of maps, as for `heightlight.bake`.
+        window: side of a window in texels, a multiple of 64. Results do not depend on it.
+        output: a folder to which the maps are written. None: they are returned as a dataset.
+        folder: the work folder, on the file system that the client and all workers share. None: NAME.windows in the
+            client's current folder, or .NAME.windows in `output`.
+        name: the beginning of the files' names (NAME). None: the name of the source.
+        format: format of the files, as in `Bake.save`. None: "tif" for terrain, "png" for materials.
+        depth: depth of the samples, as in `Bake.save`.
+        threads: threads per worker. None: as many as Dask gave the worker.
+        memory: bytes per worker. None: four fifths of the limit that Dask gave the worker.
+        reading: further arguments of `heightlight.read`, if `source` is a path.
 
-    `window`: texels of a window's side, a multiple of 64. Results do not depend on it. `folder`: the work folder,
-    NAME.windows where the client runs unless said otherwise (in `output` .NAME.windows), on a file system that the client
-    and all workers share. The same call goes on with what an earlier one left there, another one begins it anew: datasets
-    that are to be read beside each other need folders of their own. `threads`, `memory`: of each worker;
-    those that Dask gave it.
+    The other arguments are those of `heightlight.bake`.
 
-    A total that is found to miss `error` is found once more, as `heightlight.bake` does it. What windows cannot do is a
-    ValueError: "ao-n", the definitions of terrain science, an albedo that varies, "multibounce" beside a max_distance or under a
-    sky that ends at the horizontal, maps that tile whose sides are no multiples of 8 (64, where they are very large).
+    Returns:
+        Without `output`, an xarray.Dataset with a variable per map. It has the source's coordinates, or world units
+        from the lower left corner for a file without a georeference. A map of several channels has a dimension
+        NAME-channel, where NAME is the name of the map. The attribute `evidence` is that of `Bake`, as JSON. Its chunks
+        are the windows, which are read from the work folder on demand, so that this folder must stay as long as the
+        dataset is used.
+
+        With `output`, the paths of the files, which are those of `heightlight bake`: GeoTIFFs for terrain, PNGs for
+        materials, and NAME_bake.json. The work folder is then removed.
+
+    Raises:
+        ValueError: for arguments that make no sense, and for what windows cannot do: "ao-n"; the definitions of terrain
+            science; an albedo that varies; "multibounce" with a max_distance, or with a sky that ends at the
+            horizontal; and maps that tile and whose sides are not multiples of 8 (of 64 for very large maps).
+        MemoryError: if a window does not fit in the memory of a worker.
     """
     array = source if isinstance(source, xr.DataArray) else None
     path = "" if array is not None else os.path.abspath(os.fspath(source))
@@ -129,11 +146,11 @@ def bake(
             "folder": _work_folder(folder, output, called),
             "request": "",
             "surface": "",
-            "format": "exr" if output is None else format,  # of no file: each map with all its channels
+            "format": "exr" if output is None else format,  # without files: keeps all channels of each map
             "depth": "" if depth is None or output is None else str(depth),
         },
     )
-    task.share()  # says what cannot be done
+    task.share()  # raises ValueError for what windows cannot do
     tell = progress_of(progress)
     try:
         task = open_file(client, task) if array is None else _open_array(client, task, array, texel, boundary, tell)
@@ -158,7 +175,7 @@ def _work_folder(folder: Any, output: Any, name: str) -> str:
 
 
 def _open_array(client: Any, task: Task, array: Any, texel: Any, boundary: Optional[str], tell: Any) -> Task:
-    """Of heights as xarray has them."""
+    """Begins the bake of an xarray.DataArray."""
     accessor = array.heightlight
     accessor._check_dimensions()
     x, y = accessor._steps(texel)
@@ -179,14 +196,27 @@ def dataset(
     command: Union[str, os.PathLike, None] = None,
     progress: Any = False,
 ) -> list[Path]:
-    """A manifest's runs on the workers of a cluster, as `heightlight dataset` makes them; paths of the tables.
+    """Does the runs of a manifest on the workers of a cluster, as `heightlight dataset` does them.
 
-    The runs are those of the program `heightlight`, which workers start: its manifests, locks and folders are the command
-    line's. `output`: a folder that the client and all workers share. `shards`: so many shares, each a task (four for each
-    worker). `threads`, `memory`: of each worker; those that Dask gave it. `command`: the program, where it is not on PATH.
+    The workers start the program `heightlight`, so that manifests, locks and folders are those of the command line. The
+    same call continues where an earlier one was stopped.
 
-    The same call goes on where an earlier one was stopped. Raises ValueError for a manifest that makes no sense, OSError
-    for one that cannot be read and for runs that fail, with what the program says.
+    Args:
+        manifest: path of the manifest.
+        client: a distributed.Client.
+        output: a folder that the client and all workers share.
+        shards: number of parts into which the runs are divided; each is one task. None: four per worker.
+        threads: threads per worker. None: as many as Dask gave the worker.
+        memory: bytes per worker. None: four fifths of the limit that Dask gave the worker.
+        command: path of the program, if it is not on PATH.
+        progress: as for `heightlight.sky`.
+
+    Returns:
+        The paths of the tables: dataset.csv, dataset.json and costs.csv.
+
+    Raises:
+        ValueError: for a manifest that makes no sense, with the program's message.
+        OSError: for a manifest that cannot be read and for runs that fail, with the program's message.
     """
     count = integer("shards", shards, 1) if shards is not None else 4 * max(1, len(client.scheduler_info()["workers"]))
     limit = worker_memory(client) if memory is None else integer("memory", memory, 1, 2**64 - 1)

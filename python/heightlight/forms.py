@@ -1,12 +1,12 @@
-"""Closed forms of the total irradiance E/π, from what a texel is known to be.
+"""Closed forms of the total irradiance E/π, as functions of the ambient occlusion and the albedo.
 
-Each is a function of arrays or numbers, which are broadcast, and of the albedo ρ; NaN where a form says nothing.
-Its values are those of the C++ library, to the last bit. `names()` lists them.
+Each form is a function of arrays or numbers, which are broadcast, and of the albedo ρ; it is NaN outside its domain.
+The values are those of the C++ library, to the last bit. `names()` lists the forms.
 
-Two kinds of ambient occlusion, both 1 = open: `alpha`, the plain share of the hemisphere's solid angle (the study
-notes' AO), and `A`, the cosine-weighted one (GTAO's AO). Feeding one where the other is wanted ruins the result.
-Others want one thing more: `n`, the mean sky view factor of what a texel sees (`Operator.seen`), `W`, the blurred
-A (`blurred`), or a number per map: `s` (`expected_seen`), `t`.
+There are two kinds of ambient occlusion, for both of which 1 = open: `alpha`, the fraction of the hemisphere's solid
+angle that sees the sky (the AO of Patapom's notes), and `A`, the cosine-weighted one (GTAO's AO). Passing one where the
+other is expected ruins the result. Some forms need another input: `n`, the mean sky view factor of what a texel sees
+(`Operator.seen`); `W`, the blurred A (`blurred`); or one number per map: `s` (`expected_seen`) or `t`.
 """
 
 from __future__ import annotations
@@ -36,7 +36,12 @@ def _result(values: np.ndarray, shape: tuple[int, ...]) -> Any:
 
 
 class Form:
-    """A closed form: a function of its `inputs` and the albedo."""
+    """A closed form: a function of its `inputs`, in that order, and the albedo.
+
+    Attributes:
+        name, formula, source: name of the form, its formula, and where it comes from.
+        inputs: names of the inputs.
+    """
 
     def __init__(self, name: str, formula: str, source: str, inputs: list[str]) -> None:
         self.name = self.__name__ = name
@@ -70,14 +75,19 @@ globals().update(_FORMS)
 
 
 def names() -> list[str]:
-    """The forms of this module, published ones first."""
+    """Names of the forms of this module, published forms first."""
     return list(_FORMS)
 
 
 class UserForm:
-    """A form of one's own, as the command line takes it: "mine = A/(1 - rho*(1 - A)^k)".
+    """Your own closed form, written as on the command line: "mine = A/(1 - rho*(1 - A)^k)".
 
-    A formula in A, alpha, n and rho with GLSL's functions; single letters are constants that want fitting.
+    The formula may use A, alpha, n and rho, and GLSL's functions; other single letters are constants, to be fitted.
+
+    Attributes:
+        name, formula: the parts of the text.
+        inputs: names of the inputs besides the albedo.
+        constants: names of the constants.
     """
 
     def __init__(self, text: str) -> None:
@@ -103,8 +113,13 @@ class UserForm:
 
 
 def shader(name: Optional[str] = None, language: str = "glsl", *, constants: Optional[dict[str, float]] = None) -> str:
-    """Shader functions, to paste: of one form by its name; of a user's form, "NAME = FORMULA", with its constants;
-    of all forms where no name is given. `language`: "glsl", "hlsl", "wgsl" or "godot"."""
+    """Source text of shader functions, to paste into a shader.
+
+    Args:
+        name: name of a form; or your own form, "NAME = FORMULA". None: all forms of this module.
+        language: "glsl", "hlsl", "wgsl" or "godot".
+        constants: values of the constants of your own form, by name.
+    """
     if name is None:
         return _native.all_shaders(language)
     if "=" in name:
@@ -117,13 +132,19 @@ def shader(name: Optional[str] = None, language: str = "glsl", *, constants: Opt
 
 
 def expected_seen(sky_view_factor: np.ndarray, height: HeightLike, *, texel: Any = None, boundary: Any = None) -> float:
-    """s: the mean of n that reciprocity asks for, from A and the normals alone."""
+    """s, the mean of n that reciprocity requires, computed from A and the normals alone.
+
+    `sky_view_factor` is A; `height`, `texel` and `boundary` are those of `sky()`.
+    """
     surface, _ = surface_of(height, texel, boundary)
     return _native.expected_seen(surface, numbers("A", sky_view_factor).astype(np.float32))
 
 
 def blurred(sky_view_factor: np.ndarray, *, tiles: bool = True, sigma: float = 1.5) -> np.ndarray:
-    """W: A averaged by a Gaussian of `sigma` texels with weights 1 − A; float32."""
+    """W, the average of A over a Gaussian of `sigma` texels with weights 1 − A; float32.
+
+    `sky_view_factor` is A; `tiles` says whether the map repeats.
+    """
     return _native.blur_seen(numbers("A", sky_view_factor).astype(np.float32), bool(tiles), real("sigma", sigma))
 
 

@@ -27,7 +27,7 @@ std::string names_of(const StoredImage& image, const std::vector<std::size_t>& i
   return join_names(names, between);
 }
 
-/// Sample of a texel, both counted from 0.
+/// The sample of a texel and channel, both counted from 0.
 double sample_at(const StoredImage& image, std::size_t texel, std::size_t channel) {
   return std::visit(
       [&](const auto& samples) {
@@ -36,7 +36,7 @@ double sample_at(const StoredImage& image, std::size_t texel, std::size_t channe
       image.samples);
 }
 
-/// 1 where alpha is 0; empty where there is no alpha, or where none of it or all of it is 0.
+/// 1 where alpha is 0; empty if there is no alpha, or if it is 0 nowhere or everywhere.
 std::vector<char> find_holes(const StoredImage& image, std::size_t texels, ChannelSamples& picked) {
   const auto alpha = std::find_if(image.channels.begin(), image.channels.end(), is_alpha);
   if (image.channels.size() < 2 || alpha == image.channels.end()) return {};
@@ -56,7 +56,7 @@ std::vector<char> find_holes(const StoredImage& image, std::size_t texels, Chann
   return {};
 }
 
-/// Whether the channels hold the same value at every texel outside the holes (NaN is the same as NaN).
+/// Whether the channels have equal values at every texel outside the holes (two NaN count as equal).
 bool channels_agree(const StoredImage& image, const std::vector<std::size_t>& indices,
                     const std::vector<char>& holes) {
   const auto agree = [&](const auto& samples) {
@@ -74,8 +74,9 @@ bool channels_agree(const StoredImage& image, const std::vector<std::size_t>& in
   return std::visit(agree, image.samples);
 }
 
-/// Heights in the digits of colours, the first channel's the highest (Terrarium: R · 256 + G + B / 256;
-/// Mapbox: R · 65536 + G · 256 + B): the first channel hardly changes from texel to texel, the last jumps.
+/// Whether heights seem to be coded in the digits of colours, the first channel being the highest digit
+/// (Terrarium: R · 256 + G + B / 256; Mapbox: R · 65536 + G · 256 + B). Then the first channel hardly changes
+/// from texel to texel, and the last one jumps.
 bool looks_colour_coded(const StoredImage& image, const std::vector<std::size_t>& indices) {
   if (image.sample_type != "uint8" || indices.size() != 3 || image.width < 2) return false;
   std::vector<double> high;

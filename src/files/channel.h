@@ -15,10 +15,11 @@ struct ChannelSamples {
   std::vector<std::string> warnings = {};
 };
 
-/// Takes the channel that `wanted` names (any case) or counts (from 0); by default the only one, or grey
-/// where all but alpha agree at every texel that is not transparent. Alpha 0 is then a hole, unless all of it
-/// is 0; beside a channel that was chosen, it may mean anything. Throws Error naming the file where channels
-/// differ, UsageError where `wanted` is not there.
+/// Takes the channel that `wanted` names (any case) or counts (from 0). Without `wanted`, takes the only
+/// channel other than alpha, or grey where all such channels agree at every texel that is not transparent;
+/// texels with alpha 0 are then missing (NaN), unless alpha is 0 everywhere. Beside a chosen channel, alpha
+/// is ignored, because it may mean anything. Throws Error naming the file where the channels differ, and
+/// UsageError where `wanted` does not exist.
 ChannelSamples pick_channel(const InputFile& file, const StoredImage& image,
                             const std::optional<std::string>& wanted);
 

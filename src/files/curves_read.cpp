@@ -35,7 +35,7 @@ enum Column {
 };
 constexpr std::array<std::string_view, kColumnCount> kNames{
     "ao_kind", "bin", "ao_lo", "ao_hi", "ao_mean", "count", "bounce", "mean", "stddev", "p05", "p50", "p95"};
-constexpr double kSlack = 1e-6;  // shares as measured stray out of [0, 1] by rounding
+constexpr double kSlack = 1e-6;  // measured fractions leave [0, 1] by rounding
 
 std::vector<std::string_view> split(std::string_view line, char separator) {
   std::vector<std::string_view> fields;
@@ -47,7 +47,7 @@ std::vector<std::string_view> split(std::string_view line, char separator) {
   }
 }
 
-/// Takes one line after the other, and knows where it is for messages.
+/// Reads one line after the other, and keeps the position for messages.
 class CurvesReader {
  public:
   explicit CurvesReader(const InputFile& file) : file_(file), lines_(file) {}
@@ -65,8 +65,8 @@ class CurvesReader {
  private:
   [[noreturn]] void fail(const std::string& fault) const { throw lines_.error(fault); }
 
-  /// Of a text that is not what its column holds. Piece by piece: g++ 12 warns falsely of "'" + a string that
-  /// ends here.
+  /// Reports a text that is not what its column holds. The message is built piece by piece, because g++ 12
+  /// wrongly warns about "'" + a string that ends here.
   [[noreturn]] void fail_as_no(std::string_view column, std::string_view text) const {
     fail(std::string("'").append(text).append("' is no ").append(column));
   }
@@ -86,7 +86,7 @@ class CurvesReader {
     map_place_ = find("map");
   }
 
-  /// What the optional column holds in this row; empty where there is no such column.
+  /// The value of an optional column in this row; empty if there is no such column.
   std::string text_at(std::size_t place) const {
     return place < fields_ ? std::string(row_[place]) : std::string();
   }
@@ -174,7 +174,7 @@ class CurvesReader {
     filled.back().bounces.push_back(statistics);
   }
 
-  /// The number of bins, and the tail, which the file does not hold: by conservation.
+  /// Sets the number of bins, and the tail, which the file does not hold, from conservation of energy.
   void finish(std::vector<BounceCurves>& curves) const {
     for (BounceCurves& one : curves) {
       const std::size_t bounces = one.filled.front().bounces.size();
@@ -209,7 +209,7 @@ class CurvesReader {
 
 std::vector<RunCurves> read_run_curves(const std::filesystem::path& path, std::uint64_t memory_limit) {
   const InputFile file(path);
-  // The shortest lines, of some 40 characters, begin a bin each; and vectors double as they grow.
+  // The shortest lines have about 40 characters and begin a bin each; vectors double as they grow.
   constexpr std::uint64_t kPerByte = 2 * (sizeof(CurveBin) + sizeof(BounceStatistics)) / 40 + 1;
   if (file.size() > memory_limit / kPerByte) {
     const std::uint64_t needed = kPerByte * file.size();

@@ -11,8 +11,9 @@
 
 namespace heightlight {
 
-/// One channel of an image: integers as shares of the largest one (in a TIFF whose white is zero, 1 less
-/// that), floats as they are. With `from_srgb`, decoded from sRGB.
+/// One channel of an image. Integer samples are divided by the largest value of their type, and subtracted
+/// from 1 in a TIFF whose white is zero; float samples stay as they are. With `from_srgb`, values are decoded
+/// from sRGB to linear.
 template <class Value>
 std::vector<Value> decode_channel(const StoredImage& image, std::size_t channel, bool from_srgb) {
   const std::size_t stride = image.channels.size();

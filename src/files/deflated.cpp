@@ -12,7 +12,7 @@ std::string deflate_bytes(const std::string& bytes) {
   const int fault =
       compress2(reinterpret_cast<Bytef*>(stream.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
                 bytes.size(), Z_DEFAULT_COMPRESSION);
-  if (fault != Z_OK) throw std::bad_alloc();  // nothing else can be wrong
+  if (fault != Z_OK) throw std::bad_alloc();  // no other fault is possible
   stream.resize(size);
   return stream;
 }

@@ -4,7 +4,7 @@
 
 namespace heightlight {
 
-/// The bytes as a zlib stream (RFC 1950).
+/// Compresses the bytes into a zlib stream (RFC 1950).
 std::string deflate_bytes(const std::string& bytes);
 
 }  // namespace heightlight

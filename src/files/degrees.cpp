@@ -14,7 +14,7 @@ bool looks_like_degrees(const Georeference& place, int columns, int rows, double
   const double west = (*place.corner)[0];
   const double south = (*place.corner)[1] - y_extent;
   if (west == 0 && south == 0) return false;
-  // Files round their cell size, so that a map of the whole globe may end a little beyond it.
+  // Files round their cell size, so that a map of the whole globe may extend a little beyond it.
   const double slack = std::max(place.cell.x, place.cell.y);
   const bool on_globe = west >= -180 - slack && west + x_extent <= 360 + slack && south >= -90 - slack &&
                         south + y_extent <= 90 + slack;
@@ -24,7 +24,7 @@ bool looks_like_degrees(const Georeference& place, int columns, int rows, double
 
 Spacing degrees_in_metres(const Spacing& degrees, double latitude) {
   const double latitude_rad = latitude * std::numbers::pi / 180;
-  // Lengths of a degree on the WGS 84 ellipsoid as cosine series of the latitude; good to a centimetre.
+  // Lengths of a degree on the WGS 84 ellipsoid, as cosine series of the latitude; accurate to a centimetre.
   const double metres_east = 111412.84 * std::cos(latitude_rad) - 93.5 * std::cos(3 * latitude_rad) +
                              0.118 * std::cos(5 * latitude_rad);
   const double metres_north = 111132.92 - 559.82 * std::cos(2 * latitude_rad) +

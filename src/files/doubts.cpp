@@ -13,7 +13,7 @@
 namespace heightlight {
 namespace {
 
-/// Median steepness between neighbouring samples, of some 65536 of them; 0 where there are no neighbours.
+/// Median slope between neighbouring samples in degrees, from about 65536 of them; 0 without neighbours.
 double median_slope_deg(const Heightmap& map) {
   constexpr std::size_t kEnough = 65536;
   const Image<float>& h = map.height;
@@ -32,10 +32,11 @@ double median_slope_deg(const Heightmap& map) {
   return std::atan(percentile(std::span<double>(slopes), 0.5)) * 180 / std::numbers::pi;
 }
 
-/// "relief 0.1": a tenth of the width, as images of levels get it.
+/// "relief 0.1": a tenth of the width, the default for images of levels.
 std::string tenth_of(double width) { return "relief " + in_digits(width / 10, 3); }
 
-/// "relief 0.0084": at which the median slope, which is `slope_deg` at a relief of `tall`, is 30 degrees.
+/// "relief 0.0084": the relief at which the median slope is 30 degrees; it is `slope_deg` at a relief of
+/// `tall`.
 std::string gentle_relief(double tall, double slope_deg) {
   const double degree = std::numbers::pi / 180;
   return "relief " + in_digits(tall * std::tan(30 * degree) / std::tan(slope_deg * degree), 2);
@@ -82,8 +83,9 @@ void doubt_relief(const Heightmap& map, const StoredHeights& stored, const LoadO
   }
 }
 
-/// Whether lines of the map go up and down in single levels, with plateaus between: unlike a map that is flat
-/// along one axis, one so steep that hardly two neighbours are alike, or one with ramps between plains.
+/// Detects lines of the map that rise and fall in single levels with plateaus between them. It does not
+/// report a map that is flat along one axis, a map so steep that neighbours are hardly ever equal, or ramps
+/// between plains.
 class Terraces {
  public:
   explicit Terraces(double step) : step_(step) {}
@@ -106,10 +108,10 @@ class Terraces {
   double step_;
   bool last_was_level_ = false;
   std::size_t rises_ = 0;
-  std::size_t from_plateau_ = 0;  ///< rises of a single level, from a plateau
+  std::size_t from_plateau_ = 0;  ///< rises by a single level that follow a plateau
 };
 
-/// Looks along some 256 lines each way.
+/// Examines about 256 lines in each direction.
 bool has_terraces(const Image<float>& h, double step) {
   constexpr int kLines = 256;
   Terraces across(step);
@@ -126,7 +128,7 @@ bool has_terraces(const Image<float>& h, double step) {
 }
 
 void doubt_levels(const Heightmap& map, const SourceFacts& facts, std::vector<Warning>& warnings) {
-  constexpr std::size_t kFewest = 16;  // of fewer, terraces are what is meant
+  constexpr std::size_t kFewest = 16;  // a map of fewer levels is meant to have terraces
   if (!facts.is_integer || facts.levels < kFewest || facts.level_step == 0) return;
   const double terrace = facts.level_step / (facts.highest - facts.lowest) * relief(map);
   if (!has_terraces(map.height, terrace)) return;

@@ -4,8 +4,8 @@
 
 namespace heightlight {
 
-/// What is odd about a map as it was loaded: heights or slopes that hardly anyone means, terraces, edges that
-/// do not meet where the map is to tile.
+/// Finds what is odd about a loaded map: heights or slopes that are hardly ever intended, terraces, and edges
+/// that do not meet although the map is to tile.
 std::vector<Warning> find_doubts(const Heightmap& map, const StoredHeights& stored,
                                  const LoadOptions& options);
 

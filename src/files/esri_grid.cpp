@@ -31,7 +31,7 @@ constexpr std::array kKeywords{"ncols",     "nrows",    "xllcorner", "xllcenter"
 
 using HeaderWords = std::array<std::optional<double>, kKeywords.size()>;
 
-/// The beginning of a word, fit to be printed.
+/// The beginning of a word, made printable.
 std::string quoted(std::string_view word) {
   std::string text(word.substr(0, 24));
   std::replace_if(
@@ -40,7 +40,7 @@ std::string quoted(std::string_view word) {
 }
 
 bool starts_number(std::string_view word) {
-  // Words such as "nan" and "NODATA_value" begin alike, so they are told apart by their length.
+  // Words such as "nan" and "NODATA_value" begin alike, so their length distinguishes them.
   return !word.empty() && (std::isalpha(static_cast<unsigned char>(word[0])) == 0 || word.size() == 3);
 }
 
@@ -64,7 +64,7 @@ std::size_t find_keyword(const WordReader& words, std::string_view word) {
   return static_cast<std::size_t>(found - kKeywords.begin());
 }
 
-/// Takes keyword and value pairs; returns the first word behind them in `first_value`.
+/// Reads keyword and value pairs; returns the first word after them in `first_value`.
 HeaderWords read_header(WordReader& words, std::string& first_value) {
   HeaderWords header;
   std::string_view word = words.next();
@@ -124,7 +124,8 @@ EsriGrid read_esri_grid(const InputFile& file, const ReadLimit& limit) {
   const std::uint64_t columns = get_count(file, found, kColumns);
   const std::uint64_t rows = get_count(file, found, kRows);
   check_map_size(file.path(), columns, rows, sizeof(double) + sizeof(float), limit);
-  // Each value takes a digit and a space at least: a header that promises more is not worth the memory.
+  // Each value takes at least a digit and a space. A header that promises more is rejected before memory is
+  // taken.
   if (columns * rows > file.size() / 2 + 1) {
     throw file.error("has too few values: its header announces " + std::to_string(columns) + " x " +
                      std::to_string(rows));

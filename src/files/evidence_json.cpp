@@ -9,7 +9,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The walks of a plan, and what the calibration sample expected of each part.
+/// Adds the walks of a plan, and the error that the calibration sample predicted for each part.
 void add_plan(const HorizonPlan& plan, bool gathers, Json& visibility) {
   visibility["azimuths"] = plan.sky.walk.azimuths;
   visibility["full_from"] = plan.sky.full_from;

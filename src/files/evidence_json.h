@@ -9,43 +9,45 @@
 #include "heightlight/files.h"
 #include "heightlight/surface.h"
 
-// What every file that tells of a solution says, with the same keys wherever it stands: summary.json,
+// The parts that all files describing a solution have in common, with the same keys in each: summary.json,
 // NAME_bake.json, compare.json, dataset.json.
 
 namespace heightlight {
 
-/// What is found by looking at all heights.
+/// Measures that need a look at all heights.
 struct MapMeasures {
   double relief = 0;
   std::uint64_t missing = 0;
 };
 
-/// A file's map as it was understood: path, sha256, width, height, texel, relief, boundary, missing. Of
-/// `header` the heights' size counts.
+/// Describes a file's map as it was understood: path, sha256, width, height, texel, relief, boundary,
+/// missing; and `lowered_by` where the Earth's curvature was applied. `header` needs no heights, only their
+/// size.
 nlohmann::ordered_json describe_map(const std::filesystem::path& path, const std::string& sha256,
                                     const Heightmap& header, const MapMeasures& measures);
 
-/// The same of a map whose heights are there.
+/// As above, for a map whose heights are loaded.
 nlohmann::ordered_json describe_map(const std::filesystem::path& path, const std::string& sha256,
                                     const Surface& surface);
 
-/// The keys `visibility`, `links`, `energy_audit`, `energy` and `seen`, as far as the evidence has them.
+/// The keys `visibility`, `links`, `energy_audit`, `energy` and `seen`, as far as the evidence contains them.
 nlohmann::ordered_json describe_evidence(const Evidence& evidence);
 
-/// `files`: name, size and checksum of each.
+/// The key `files`: name, size and checksum of each file.
 nlohmann::ordered_json describe_files(const std::vector<FileRecord>& files);
 
-/// `warnings`: a line each, with the quantity that would help in parentheses.
+/// The key `warnings`: one line each, with the quantity that would help in parentheses.
 nlohmann::ordered_json describe_warnings(const std::vector<Warning>& warnings);
 
-/// The solution's own part of `time_s`.
+/// The part of `time_s` that the solution itself took.
 nlohmann::ordered_json describe_times(const SolveTimes& seconds);
 
-/// `memory`: what this process held at most so far, and what the solution was estimated to hold.
+/// The key `memory`: the largest amount that this process has held so far, and the estimate of what the
+/// solution would hold.
 nlohmann::ordered_json describe_memory(const Evidence& evidence);
 
-/// The text of a file of JSON. Names of files may hold bytes that are no UTF-8, which JSON cannot: they are
-/// replaced.
+/// The text of a JSON file. File names may contain bytes that are not UTF-8, which JSON cannot hold; such
+/// bytes are replaced.
 std::string json_text(const nlohmann::ordered_json& json);
 
 }  // namespace heightlight

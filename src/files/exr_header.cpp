@@ -5,7 +5,7 @@
 namespace heightlight {
 namespace {
 
-/// Numbers are little-endian.
+/// Reads the bytes of an OpenEXR file; its numbers are little-endian.
 class ExrBytes {
  public:
   explicit ExrBytes(const InputFile& file) : file_(file), stream_(file.rewound()) {}
@@ -22,7 +22,7 @@ class ExrBytes {
     return value;
   }
 
-  /// Up to a zero.
+  /// Reads a text that ends with a zero byte.
   std::string name() {
     constexpr std::size_t kLongest = 255;
     std::string text;
@@ -52,14 +52,14 @@ class ExrBytes {
 
 void check_exr_headers(const InputFile& file) {
   ExrBytes bytes(file);
-  bytes.number();  // the magic, which made an EXR of it
+  bytes.number();  // skips the magic number, by which the file was recognised
   constexpr std::uint32_t kMultiPart = 0x1000;
   const bool many = (bytes.number() & kMultiPart) != 0;
   for (bool first = true; first || many; first = false) {
     std::string attribute = bytes.name();
     if (attribute.empty()) return;
     for (; !attribute.empty(); attribute = bytes.name()) {
-      bytes.name();  // its type
+      bytes.name();  // skips the attribute's type
       bytes.skip(bytes.number(), attribute);
     }
   }

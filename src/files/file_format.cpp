@@ -32,7 +32,7 @@ constexpr std::array kMagics{
     Magic{"#?R"sv, FileFormat::hdr},  // #?RADIANCE or #?RGBE
 };
 
-/// What people take for heightmaps and this program does not read, and what to do about it.
+/// A format that people use for heightmaps and this program does not read, and advice on what to do.
 struct Unread {
   std::string_view bytes;
   const char* what;
@@ -56,7 +56,7 @@ constexpr std::array kUnread{
 
 int byte_at(std::string_view head, std::size_t place) { return static_cast<unsigned char>(head[place]); }
 
-/// Targa has no magic: its 18-byte header counts as one when every field holds one of its few legal values.
+/// Targa has no magic number: an 18-byte header is accepted if every field holds one of its few legal values.
 bool looks_like_targa(std::string_view head) {
   if (head.size() < 18) return false;
   const int has_palette = byte_at(head, 1);
@@ -82,7 +82,7 @@ bool looks_like_esri_grid(const std::filesystem::path& path, std::string_view he
   return keyword.starts_with("ncols") || keyword.starts_with("nrows");
 }
 
-/// Heights one after the other, as terrain tools and game engines keep them.
+/// Whether the name is that of a file of raw heights, as terrain tools and game engines write it.
 bool is_named_raw(const std::filesystem::path& path) {
   constexpr std::array kRaw{".raw", ".r8", ".r16", ".r32", ".bin", ".bil", ".flt", ".hgt", ".ter"};
   const std::string extension = to_lower(path.extension().string());
@@ -92,7 +92,8 @@ bool is_named_raw(const std::filesystem::path& path) {
 std::string explain_unread(std::string_view head) {
   for (const Unread& kind : kUnread) {
     if (!head.starts_with(kind.bytes)) continue;
-    if (kind.bytes.size() == 2 && kind.bytes == "BM" && head.size() < 54) continue;  // a whole header
+    // requires a whole header
+    if (kind.bytes.size() == 2 && kind.bytes == "BM" && head.size() < 54) continue;
     return std::string("is ") + kind.what + "; " + kind.remedy;
   }
   if (head.size() >= 12 && head.starts_with("RIFF") && head.substr(8, 4) == "WEBP")

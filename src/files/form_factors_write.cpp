@@ -9,7 +9,7 @@
 namespace heightlight {
 namespace {
 
-/// Calls visit(row) for what every texel sees, in order; a line of the map at a time is expanded.
+/// Calls visit(row) with the links of every texel, in order; expands one line of the map at a time.
 template <class Visit>
 void for_rows(const FormFactors& form_factors, Visit&& visit) {
   std::vector<FormFactorRow> line(static_cast<std::size_t>(form_factors.width));

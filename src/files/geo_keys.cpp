@@ -31,7 +31,7 @@ std::vector<T> values_of(const GeoTag& tag, std::uint16_t type) {
   return values;
 }
 
-// Numbers of the keys that matter, and the values that they have here.
+// Numbers of the keys that are used here, and their values.
 constexpr std::uint16_t kModelType = 1024;
 constexpr std::uint16_t kRasterType = 1025;
 constexpr std::uint16_t kGeodeticSystem = 2048;
@@ -52,7 +52,7 @@ constexpr std::uint16_t kMetre = 9001;
 constexpr std::uint16_t kDegree = 9102;
 constexpr std::string_view kCitationBegin = "ESRI PE String = ";
 
-/// Keys by number: their values, which stand in the directory itself, among the doubles or in the text.
+/// Values of the keys by number. They are stored in the directory itself, among the doubles, or in the text.
 struct KeyValues {
   std::map<std::uint16_t, std::uint16_t> shorts;
   std::map<std::uint16_t, double> doubles;
@@ -64,8 +64,9 @@ struct KeyValues {
   }
 };
 
-/// A header of four shorts (version, revision, minor revision, number of keys), then four for each key:
-/// number, tag that its value stands in (0: this one), count, value or place.
+/// Reads the directory: a header of four shorts (version, revision, minor revision, number of keys), then
+/// four shorts for each key: its number, the tag that holds its value (0: the directory itself), the count,
+/// and the value or its offset.
 std::optional<KeyValues> list_keys(const std::vector<std::uint16_t>& words,
                                    const std::vector<double>& parameters, const std::string& text) {
   KeyValues values;
@@ -87,7 +88,7 @@ std::optional<KeyValues> list_keys(const std::vector<std::uint16_t>& words,
   return values;
 }
 
-/// Metres of a unit of length by its code (EPSG register); nothing of one that is not known.
+/// Length in metres of a unit of length, by its code in the EPSG register; empty for an unknown unit.
 std::optional<double> metres_of_unit(std::uint16_t code) {
   switch (code) {
     case kMetre:
@@ -103,8 +104,8 @@ std::optional<double> metres_of_unit(std::uint16_t code) {
   }
 }
 
-/// Whether a projected system has metres: UTM zones (WGS 84, ETRS 89, NAD 83, WGS 72), and the systems of
-/// continents and countries whose terrain is published most.
+/// Whether the unit of a projected system is the metre: UTM zones (WGS 84, ETRS 89, NAD 83, WGS 72), and the
+/// systems of the continents and countries whose terrain is published most.
 bool has_metres(std::uint16_t code) {
   constexpr std::array<std::array<std::uint16_t, 2>, 6> kZones{
       {{32601, 32660}, {32701, 32760}, {25828, 25838}, {26901, 26923}, {32201, 32260}, {32301, 32360}}};
@@ -115,7 +116,8 @@ bool has_metres(std::uint16_t code) {
          std::find(kSystems.begin(), kSystems.end(), code) != kSystems.end();
 }
 
-/// The unit of the vertical systems that are in feet: NGVD 29, NAVD 88, and those of the Cayman Islands.
+/// Length of the unit in metres of vertical systems in feet: NGVD 29, NAVD 88, and those of the Cayman
+/// Islands.
 std::optional<double> metres_of_vertical(std::uint16_t code) {
   switch (code) {
     case 5702:
@@ -135,7 +137,7 @@ std::string epsg(const std::optional<std::uint16_t>& code) {
   return code && *code != kUserDefined ? "EPSG:" + std::to_string(*code) : "";
 }
 
-/// A unit's code in words: one that the file defines itself has none.
+/// The name of a unit in a message; a unit that the file itself defines has no code.
 std::string name_unit(std::uint16_t code) {
   return code == kUserDefined ? "one of the file's own" : epsg(code);
 }
@@ -168,7 +170,7 @@ void read_geographic(const KeyValues& values, GeoKeys& keys, std::string& fault)
     keys.equator_radius = axis->second;
 }
 
-/// A system that is told by its text, as Esri's programs and GDAL read it.
+/// Reads a system that is given as text, as Esri's programs and GDAL write and read it.
 void read_citation(std::string text, GeoKeys& keys, std::string& fault) {
   if (!text.starts_with(kCitationBegin)) {
     fault = "it does not tell whether its coordinates are lengths or degrees";
@@ -185,7 +187,7 @@ void read_citation(std::string text, GeoKeys& keys, std::string& fault) {
   if (!keys.in_degrees && !keys.metres) fault = "it does not tell its unit of length";
 }
 
-/// GDAL's own text on bands, where it says the unit of heights.
+/// The unit of heights in GDAL's metadata on bands, where they give it.
 std::optional<double> unit_in_metadata(const std::string& text) {
   const std::string unit = metadata_in_role(text, "unittype");
   if (unit == "m" || unit == "metre" || unit == "meter" || unit == "metres" || unit == "meters") return 1;
@@ -194,7 +196,7 @@ std::optional<double> unit_in_metadata(const std::string& text) {
   return std::nullopt;
 }
 
-/// A directory of keys, in rising order, and the text that some of them refer to.
+/// Makes a directory of keys, in rising order, and the text to which the citation key refers.
 std::vector<GeoTag> key_tags(const std::vector<std::array<std::uint16_t, 2>>& shorts,
                              const std::string& citation) {
   std::vector<std::uint16_t> words{1, 1, 0, 0};
@@ -285,7 +287,7 @@ std::vector<GeoTag> make_geo_tags(const Georeference& place) {
       make_tag(kPixelScaleTag, std::vector<double>{place.cell.x, place.cell.y, 0}),
       make_tag(kTiePointTag, std::vector<double>{0, 0, 0, (*place.corner)[0], (*place.corner)[1], 0})};
   std::vector<GeoTag> keys;
-  // Keys have 16 bits; codes of six digits stay in the text.
+  // Keys have 16 bits, so a code of six digits can only be given in the text.
   std::uint16_t code = 0;
   const bool has_code =
       place.system.starts_with("EPSG:") && (place.in_degrees || place.metres == 1.0) &&

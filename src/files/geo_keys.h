@@ -9,7 +9,7 @@
 
 namespace heightlight {
 
-// Numbers of the tags of OGC GeoTIFF 1.1, and of the two that GDAL adds.
+// Tag numbers of OGC GeoTIFF 1.1, and the two that GDAL adds.
 constexpr std::uint16_t kPixelScaleTag = 33550;
 constexpr std::uint16_t kTiePointTag = 33922;
 constexpr std::uint16_t kTransformationTag = 34264;
@@ -19,44 +19,45 @@ constexpr std::uint16_t kTextParametersTag = 34737;
 constexpr std::uint16_t kGdalMetadataTag = 42112;
 constexpr std::uint16_t kGdalNoDataTag = 42113;
 
-/// A tag of one of the three types.
+/// Makes a tag of type double, short or text.
 GeoTag make_tag(std::uint16_t number, const std::vector<double>& values);
 GeoTag make_tag(std::uint16_t number, const std::vector<std::uint16_t>& values);
 GeoTag make_tag(std::uint16_t number, const std::string& text);
 
-/// The values of a tag of that type; nothing of another.
+/// The values of a tag that has the type asked for; empty for a tag of another type.
 std::vector<double> doubles_of(const GeoTag& tag);
 std::vector<std::uint16_t> shorts_of(const GeoTag& tag);
-std::string text_of(const GeoTag& tag);  ///< up to its first 0
+std::string text_of(const GeoTag& tag);  ///< up to its first zero byte
 
-/// What GDAL's metadata, a text of XML, say of a band in that role ("unittype", "scale", "offset"): the first
-/// that has it; empty where none has.
+/// Finds what GDAL's metadata, an XML text, says about a band in a role ("unittype", "scale", "offset").
+/// Takes the first entry with that role; empty where there is none.
 std::string metadata_in_role(const std::string& metadata, const std::string& role);
 
-/// The tag of that number; nullptr where there is none.
+/// The tag with that number; nullptr where there is none.
 const GeoTag* find_tag(const std::vector<GeoTag>& tags, std::uint16_t number);
 
-/// What the keys of a GeoTIFF say of its coordinates (OGC GeoTIFF 1.1, section 7).
+/// What the keys of a GeoTIFF say about its coordinates (OGC GeoTIFF 1.1, section 7).
 struct GeoKeys {
-  bool present = false;          ///< there is a directory of keys
-  bool point_samples = false;    ///< places are those of samples, not of their cells' corners
-  bool in_degrees = false;       ///< geographic coordinates
-  std::optional<double> metres;  ///< length of the unit of projected ones
+  bool present = false;          ///< whether there is a directory of keys
+  bool point_samples = false;    ///< whether coordinates are those of samples, not of cell corners
+  bool in_degrees = false;       ///< whether the coordinates are geographic
+  std::optional<double> metres;  ///< length of the unit of projected coordinates, in metres
   std::optional<double> height_metres;
-  std::optional<double> equator_radius;  ///< of the ellipsoid of degrees, metres
-  std::string system;                    ///< "EPSG:32631"
-  std::string projection;                ///< well-known text, where the system is told by one
+  std::optional<double>
+      equator_radius;      ///< equatorial radius of the ellipsoid of geographic coordinates, metres
+  std::string system;      ///< "EPSG:32631"
+  std::string projection;  ///< well-known text, where the system is given as text
 };
 
-/// Reads them. `fault` becomes what is wrong with them, in words that go on after the file's name, and stays
-/// empty where nothing is: a damaged directory, coordinates that are neither projected nor geographic, units
-/// of an unknown length. A projected system that is named without its unit has metres where it is one of
-/// those in wide use that do; else that is a fault.
+/// Reads the GeoTIFF keys. `fault` receives what is wrong with them, in words that continue a sentence after
+/// the file's name; it stays empty where nothing is wrong. Faults are a damaged directory, coordinates that
+/// are neither projected nor geographic, and units of unknown length. A projected system without a unit is
+/// taken to use metres if it is one of the widely used systems that do; otherwise this is a fault.
 GeoKeys read_geo_keys(const std::vector<GeoTag>& tags, std::string& fault);
 
-/// The tags that place a map whose file is no GeoTIFF: its corner and cell, a code of the EPSG register where
-/// `Georeference::system` has one, or the text of its .prj. What that text is in, degrees or lengths, a
-/// program reads from it.
+/// Makes GeoTIFF tags for a map whose file is not a GeoTIFF: its corner and cell size, and the EPSG code if
+/// `Georeference::system` has one, else the text of its .prj. In the latter case, a reader learns from that
+/// text whether coordinates are degrees or lengths.
 std::vector<GeoTag> make_geo_tags(const Georeference& place);
 
 }  // namespace heightlight

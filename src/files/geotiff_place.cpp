@@ -9,7 +9,7 @@
 namespace heightlight {
 namespace {
 
-/// From columns and rows to coordinates, along the axes: x = x0 + scale_x column, y = y0 − scale_y row.
+/// The mapping from columns and rows to coordinates: x = x0 + scale_x column, y = y0 − scale_y row.
 struct GridPlace {
   Spacing scale;
   std::optional<std::array<double, 2>> origin;
@@ -17,7 +17,7 @@ struct GridPlace {
 
 bool is_length(double value) { return value > 0 && std::isfinite(value); }
 
-/// ModelTransformationTag: four rows of four; x = a column + b row + d, y = e column + f row + h.
+/// Reads ModelTransformationTag: four rows of four; x = a column + b row + d, y = e column + f row + h.
 GridPlace read_transformation(const std::vector<double>& m, std::string& fault) {
   if (m.size() != 16 || !std::all_of(m.begin(), m.end(), [](double v) { return std::isfinite(v); })) {
     fault = "its transformation does not have 16 numbers";
@@ -33,7 +33,7 @@ GridPlace read_transformation(const std::vector<double>& m, std::string& fault) 
   return {};
 }
 
-/// ModelPixelScaleTag, and the first of ModelTiepointTag: column, row, 0, x, y, 0.
+/// Reads ModelPixelScaleTag, and the first point of ModelTiepointTag: column, row, 0, x, y, 0.
 GridPlace read_scale(const std::vector<double>& scale, const GeoTag* tie, std::string& fault) {
   if (scale.size() != 3 || !is_length(scale[0]) || !is_length(scale[1])) {
     fault = "its pixel scale is not two positive lengths";
@@ -90,7 +90,7 @@ void check_latitudes(const Georeference& place, int rows, std::string& fault) {
     fault = "its coordinates are said to be degrees, and its latitudes lie beyond the poles";
 }
 
-/// Makes the tags of the corner and the cell anew.
+/// Replaces the tags of the corner and the cell size.
 void set_place_tags(Georeference& place) {
   std::string fault;
   const double half = read_geo_keys(place.tags, fault).point_samples ? 0.5 : 0;

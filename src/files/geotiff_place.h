@@ -8,23 +8,23 @@
 
 namespace heightlight {
 
-/// What the tags of a TIFF say of its place, or why that cannot be used.
+/// The georeference that the tags of a TIFF give, or the reason why it cannot be used.
 struct GeotiffPlace {
   std::optional<Georeference> place;
-  std::string fault;  ///< words that go on after the file's name; empty where nothing is wrong
+  std::string fault;  ///< continues a sentence after the file's name; empty where nothing is wrong
 };
 
-/// Reads ModelPixelScaleTag with ModelTiepointTag, or ModelTransformationTag, and the keys (OGC GeoTIFF 1.1,
-/// section 7). Neither a place nor a fault where there is none of these. A fault: tags of another type or
-/// number of values than the standard's, scales that are not positive, grids that are rotated, sheared or
-/// upside down, places by control points, tags or units that contradict each other, latitudes beyond the
-/// poles.
+/// Reads ModelPixelScaleTag with ModelTiepointTag, or ModelTransformationTag, and the GeoTIFF keys (OGC
+/// GeoTIFF 1.1, section 7). Returns neither a georeference nor a fault where these tags are absent. Faults
+/// are tags whose type or number of values is not the standard's, scales that are not positive, grids that
+/// are rotated, sheared or upside down, georeferencing by control points, tags or units that contradict each
+/// other, and latitudes beyond the poles.
 GeotiffPlace read_geotiff_place(const std::vector<GeoTag>& tags, int rows);
 
-/// The place of a part of the map that begins at a sample.
+/// The georeference of the part of the map that begins at the sample (row, column).
 Georeference crop_place(const Georeference& place, int row, int column);
 
-/// The same place for means of factor × factor samples.
+/// The georeference of the map after each factor × factor samples are averaged into one.
 Georeference shrink_place(const Georeference& place, int factor);
 
 }  // namespace heightlight

@@ -12,7 +12,8 @@ namespace {
 
 Spacing scaled(const Spacing& spacing, double factor) { return {spacing.x * factor, spacing.y * factor}; }
 
-/// Metres of a cell, none beyond the poles, where cells end whose samples stand on them.
+/// Size of a cell in metres. The width is 0 at the poles and beyond, where cells end whose samples lie on a
+/// pole.
 Spacing cell_at(const Spacing& cell, double latitude) {
   constexpr double kPole = 90;
   Spacing metres = degrees_in_metres(cell, std::clamp(latitude, -kPole, kPole));
@@ -20,11 +21,11 @@ Spacing cell_at(const Spacing& cell, double latitude) {
   return metres;
 }
 
-/// Whether an ellipsoid may be the Earth's: all have its radius within 2 km, and spheres of its mean
-/// within 8.
+/// Whether an ellipsoid may be the Earth's. All such ellipsoids have an equatorial radius within 2 km of this
+/// one, and spheres of the Earth's mean radius within 8 km.
 bool is_earth(double equator_radius) { return std::fabs(equator_radius - 6378137) < 1e4; }
 
-/// What is lost by one spacing for all rows, where that shows.
+/// Describes how much the cell width varies from north to south, if by 1 % or more.
 std::string describe_change(const Spacing& cell, double north, double south) {
   constexpr double kShows = 0.01;
   const double upper = cell_at(cell, north).x;

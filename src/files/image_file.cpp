@@ -14,7 +14,7 @@
 namespace heightlight {
 namespace {
 
-/// Writes through OpenImageIO into a stream of ours, whose errors it would drop.
+/// Writes through OpenImageIO into our own stream, because OpenImageIO would ignore write errors.
 void write_oiio(const std::filesystem::path& path, const char* format, const OIIO::ImageSpec& spec,
                 const std::function<bool(OIIO::ImageOutput&)>& write_samples) {
   write_file(path, [&](std::FILE* stream) {
@@ -25,7 +25,7 @@ void write_oiio(const std::filesystem::path& path, const char* format, const OII
     const bool written = taken && write_samples(*output);
     const std::string fault = output->geterror();
     const bool closed = output->close();
-    // A failed stream explains itself better (no space left) than the library that met it.
+    // The error of a failed stream (no space left) is clearer than the library's message.
     if (std::ferror(stream)) return;
     if (!written || !closed) {
       throw output_error(path, fault.substr(0, fault.find('\n')));
@@ -68,7 +68,7 @@ void write_float_image(const std::filesystem::path& path,
   }
   spec.attribute("compression", "zip");
   spec.attribute("DateTime",
-                 "1970:01:01 00:00:00");  // else the time of writing: files would differ from run to run
+                 "1970:01:01 00:00:00");  // the time of writing would make files differ from run to run
   for (const auto& [name, text] : attributes) spec.attribute(name, text);
 
   write_oiio(path, "openexr", spec, [&](OIIO::ImageOutput& output) {
@@ -85,7 +85,7 @@ void write_float_image(const std::filesystem::path& path,
 
 namespace {
 
-constexpr int kTextureRows = 64;  // at a time: a multiple of the 16 that EXR compresses together
+constexpr int kTextureRows = 64;  // written at a time: a multiple of the 16 that EXR compresses together
 
 OIIO::TypeDesc stored_type(SampleType type) {
   switch (type) {
@@ -122,7 +122,7 @@ void write_texture(const std::filesystem::path& path, const TextureLayout& layou
   spec.alpha_channel = -1;
   spec.attribute("oiio:UnassociatedAlpha", 1);
   spec.attribute("compression", "zip");
-  spec.attribute("png:compressionLevel", 4);  // a tenth larger than the default, in a third of the time
+  spec.attribute("png:compressionLevel", 4);  // a third of the default's time, for a tenth more bytes
   spec.attribute("DateTime", "1970:01:01 00:00:00");
   for (const auto& [name, text] : layout.attributes) spec.attribute(name, text);
   write_oiio(path, format, spec, [&](OIIO::ImageOutput& output) {
@@ -145,8 +145,8 @@ void write_texture(const std::filesystem::path& path, const TextureLayout& layou
 }
 
 std::uint64_t texture_writing_bytes(int width, std::uint64_t channels, bool tiff) {
-  // Samples as float and as levels, and the library's copy of both; TIFF's tiles, and the rows that the
-  // coarsest overview is made of, no more than a tile's.
+  // Samples as float and as levels, and the library's copy of both; for TIFF, the tiles and the rows from
+  // which the coarsest overview is made, which are no more than a tile's.
   constexpr std::uint64_t kCopies = 2 * (sizeof(float) + sizeof(std::uint16_t));
   constexpr std::uint64_t kCompressor = 1 << 20;
   const std::uint64_t samples = static_cast<std::uint64_t>(width) * channels;

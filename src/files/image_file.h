@@ -18,16 +18,17 @@ namespace heightlight {
 /// An 8-bit RGB colour, sRGB encoded, as pictures hold it.
 using Rgb8 = std::array<std::uint8_t, 3>;
 
-/// Each writer replaces `path`, and throws Error naming it and what is wrong (full disk, unwritable folder).
+/// Each writer replaces `path`, and throws Error naming the file and the fault (full disk, unwritable
+/// folder).
 
-/// 8-bit sRGB picture, through stb.
+/// Writes an 8-bit sRGB picture, through stb.
 void write_png(const std::filesystem::path& path, const Image<Rgb8>& picture);
 
-/// 16-bit grey, levels as given.
+/// Writes a 16-bit grey PNG with the given levels.
 void write_png16(const std::filesystem::path& path, const Image<std::uint16_t>& levels);
 
-/// float32 EXR with one map per named channel ("Y", or "R", "G", "B"), all of one
-/// size. `attributes` are text attributes of the header. NaN is kept.
+/// Writes a float32 EXR with one map per named channel ("Y", or "R", "G", "B"); all maps have one size.
+/// `attributes` are text attributes of the header. NaN is kept.
 void write_float_image(const std::filesystem::path& path,
                        const std::vector<std::pair<std::string, const Map*>>& channels,
                        const std::vector<std::pair<std::string, std::string>>& attributes = {});
@@ -35,36 +36,36 @@ void write_float_image(const std::filesystem::path& path,
 /// How samples are stored.
 enum class SampleType { uint8, uint16, half, real };
 
-/// What a band of a GeoTIFF says of itself.
+/// What the metadata of a GeoTIFF say about one band.
 struct BandText {
   std::string description = {};
   std::string unit = {};
 };
 
-/// What a texture file is to hold.
+/// The layout of a texture file.
 struct TextureLayout {
   int width = 0;
   int height = 0;
-  std::vector<std::string> channels = {};  ///< "Y", or "R", "G", …; channels named "A" are no coverage
+  std::vector<std::string> channels = {};  ///< "Y", or "R", "G", …; a channel named "A" is data, not coverage
   SampleType type = SampleType::uint16;
   std::vector<std::pair<std::string, std::string>> attributes = {};  ///< text, where the format has it
-  const Georeference* place = nullptr;                               ///< of a TIFF: where on earth it lies
-  std::vector<BandText> bands = {};  ///< of a TIFF with a place: of each channel, or none
+  const Georeference* place = nullptr;  ///< of a TIFF: where on earth it lies; may be null
+  std::vector<BandText> bands = {};     ///< of a georeferenced TIFF: one entry per channel, or none
 };
 
-/// Fills rows [first, first + count) with samples, channels interleaved: whole levels for integers.
+/// Fills rows [first, first + count) with samples, channels interleaved; integer formats take whole levels.
 using FillRows = std::function<void(int first, int count, float* samples)>;
 
-/// PNG, EXR or TIFF by extension, some rows at a time. Values are stored as they are: linear, no gamma, alpha
-/// not multiplied in. Floats become half by rounding to the nearest.
+/// Writes a PNG, EXR or TIFF, chosen by the extension, a few rows at a time. Values are stored as they are:
+/// linear, no gamma, not multiplied by alpha. Floats become half by rounding to nearest.
 void write_texture(const std::filesystem::path& path, const TextureLayout& layout, const FillRows& fill);
 
-/// Bytes that write_texture takes for so many channels, beside what fills the rows.
+/// Bytes that write_texture takes for that many channels, without what `fill` uses.
 std::uint64_t texture_writing_bytes(int width, std::uint64_t channels, bool tiff);
 
-/// SHA-256 of a file's bytes, hexadecimal. Throws Error.
+/// SHA-256 of a file's bytes, in hexadecimal. Throws Error.
 std::string sha256_of_file(const InputFile& file);
-/// Of these bytes.
+/// SHA-256 of these bytes, in hexadecimal.
 std::string sha256_of(std::string_view bytes);
 
 }  // namespace heightlight

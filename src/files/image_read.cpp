@@ -14,7 +14,7 @@
 namespace heightlight {
 namespace {
 
-/// A sample type that this reader takes: as stored, and as kept.
+/// A sample type that this reader accepts: as stored in the file, and as kept in memory.
 struct StoredType {
   OIIO::TypeDesc::BASETYPE stored;
   OIIO::TypeDesc::BASETYPE kept;
@@ -47,8 +47,8 @@ const StoredType& find_stored_type(const InputFile& file, const OIIO::ImageSpec&
                    ", which is not supported");
 }
 
-/// OpenImageIO 2.4 leaves zeros or garbage, without a word, where a TIFF's samples are 64-bit in tiles or in
-/// a single row, or of more than 16 bits without filling their type.
+/// OpenImageIO 2.4 silently delivers zeros or garbage where a TIFF's samples are 64-bit and in tiles or in a
+/// single row, or have more than 16 bits without filling their type. Throws Error for such files.
 void check_tiff_layout(const InputFile& file, const OIIO::ImageSpec& spec, int bits) {
   const int type_bits = static_cast<int>(spec.format.size()) * 8;
   if (type_bits == 64 && (spec.tile_width > 0 || spec.height == 1))
@@ -58,7 +58,7 @@ void check_tiff_layout(const InputFile& file, const OIIO::ImageSpec& spec, int b
     throw file.error(std::to_string(bits) + "-bit TIFF samples are not supported; use 16 or 32 bits");
 }
 
-/// What a library must not be asked to read.
+/// Checks for content that would crash a library or exhaust memory.
 void check_before_opening(const InputFile& file, FileFormat format, StoredImage& image) {
   if (format == FileFormat::openexr) check_exr_headers(file);
   if (format != FileFormat::tiff) return;
@@ -72,7 +72,7 @@ std::unique_ptr<OIIO::ImageInput> open_image(const InputFile& file, FileFormat f
   std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(to_string(format));
   if (!input) throw file.error("cannot be read: no reader for " + std::string(to_string(format)));
   OIIO::ImageSpec configuration;
-  configuration.attribute("oiio:UnassociatedAlpha", 1);  // heights are not to be multiplied by alpha
+  configuration.attribute("oiio:UnassociatedAlpha", 1);  // heights must not be multiplied by alpha
   if (!input->open(file.name_for_libraries(), spec, configuration)) {
     throw file.error(std::string("cannot be read as ") + to_string(format) + ": " +
                      file.explain(input->geterror()));
@@ -85,11 +85,11 @@ std::vector<std::string> part_names(OIIO::ImageInput& input) {
   for (int part = 0; input.seek_subimage(part, 0); ++part) {
     names.push_back(input.spec().get_string_attribute("oiio:subimagename", std::to_string(part)));
   }
-  static_cast<void>(input.geterror());  // that there is none after the last
+  static_cast<void>(input.geterror());  // clears the error that there is no part after the last
   return names;
 }
 
-/// Which image of the file to read.
+/// Index of the image to read.
 int choose_part(const InputFile& file, FileFormat format, OIIO::ImageInput& input,
                 const std::optional<std::string>& part) {
   if (format != FileFormat::openexr) return 0;
@@ -100,7 +100,7 @@ int choose_part(const InputFile& file, FileFormat format, OIIO::ImageInput& inpu
                    "part");
 }
 
-/// OpenImageIO turns grey of 8 bits round where white is zero, and no other: it shall be as the file has it.
+/// OpenImageIO inverts 8-bit grey where white is zero, but no other type. This restores the file's values.
 void turn_back_white_is_zero(StoredImage& image) {
   if (!image.tiff || !image.tiff->white_is_zero) return;
   if (auto* levels = std::get_if<std::vector<std::uint8_t>>(&image.samples)) {
@@ -108,7 +108,7 @@ void turn_back_white_is_zero(StoredImage& image) {
   }
 }
 
-/// What the header of an image tells; its samples are to be read as `kept`.
+/// An image as its header describes it; its samples are to be read as `kept`.
 StoredImage describe_image(const OIIO::ImageSpec& spec, const StoredType& type, StoredImage image) {
   image.width = spec.width;
   image.height = spec.height;
@@ -191,7 +191,8 @@ StoredImage read_image(const InputFile& file, FileFormat format, const ReadLimit
   const bool read = std::visit(
       [&](auto& samples) { return input->read_image(chosen, 0, 0, spec.nchannels, kept, samples.data()); },
       image.samples);
-  // The readers of TIFF and JPEG fill what a truncated file lacks, say so in a message, and report success.
+  // The readers of TIFF and JPEG fill in the missing part of a truncated file, say so in a message, and
+  // report success.
   if (!read || input->has_error())
     throw file.error("is damaged or truncated: " + file.explain(input->geterror()));
   turn_back_white_is_zero(image);

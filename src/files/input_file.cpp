@@ -11,7 +11,7 @@
 namespace heightlight {
 
 Error file_error(const std::filesystem::path& path, const std::string& fault, const std::string& remedy) {
-  return Error(path.string() + ": " + printable(fault), remedy);  // files may be quoted in it
+  return Error(path.string() + ": " + printable(fault), remedy);  // the fault may quote content of the file
 }
 
 File open_input(const std::filesystem::path& path) {
@@ -20,7 +20,7 @@ File open_input(const std::filesystem::path& path) {
   if (status.type() == std::filesystem::file_type::not_found) throw file_error(path, "no such file");
   if (failure) throw file_error(path, "cannot be read: " + failure.message());
   if (std::filesystem::is_directory(status)) throw file_error(path, "is a directory, not a file");
-  // The content is read more than once (its format, its samples, its checksum), which a pipe does not allow.
+  // The content is read several times (format, samples, checksum), which a pipe does not allow.
   if (!std::filesystem::is_regular_file(status)) throw file_error(path, "is not a regular file");
   File file(std::fopen(path.c_str(), "rbe"));
   if (!file) throw file_error(path, std::string("cannot be read: ") + std::strerror(errno));

@@ -26,7 +26,7 @@ extern "C" void note_signal(int signal_number) {
   errno = error_number;
 }
 
-/// What the parent ignores stays ignored (nohup, a shell's background jobs).
+/// A signal that the parent ignores stays ignored (nohup, background jobs of a shell).
 void note_unless_ignored(int signal_number) {
   struct sigaction now {};
   sigaction(signal_number, nullptr, &now);
@@ -55,8 +55,8 @@ void note_interrupts(void (*when_late)(int signal_number)) {
   // Batch systems announce the end of a job's time by SIGUSR1, SIGUSR2 or SIGXCPU.
   for (const int signal_number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGQUIT, SIGUSR1, SIGUSR2, SIGXCPU})
     note_unless_ignored(signal_number);
-  std::signal(SIGCHLD, SIG_DFL);  // a parent may have ignored it: then nobody learns how gnuplot ended
-  std::signal(SIGXFSZ, SIG_IGN);  // the write that would pass the limit fails, and says so
+  std::signal(SIGCHLD, SIG_DFL);  // if the parent ignored it, nobody would learn how gnuplot ended
+  std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the limit then fails with an error
 }
 
 int noted_signal() { return noted_signal_number.load(std::memory_order_relaxed); }

@@ -25,7 +25,7 @@ std::string read_all(const std::filesystem::path& path) {
   return text;
 }
 
-/// The library's message without the tag in brackets that it begins with.
+/// The library's message without the tag in brackets at its beginning.
 std::string without_tag(const std::string& message) {
   const std::size_t tag_end = message.find("] ");
   return tag_end == std::string::npos ? message : message.substr(tag_end + 2);
@@ -33,7 +33,7 @@ std::string without_tag(const std::string& message) {
 
 constexpr int kDeepest = 64;
 
-/// Sees one event of the parser after the other, and knows the keys of every object that is still open.
+/// Receives the events of the parser, and keeps the keys of every object that is still open.
 class ParseGuard {
  public:
   explicit ParseGuard(const std::filesystem::path& path) : path_(path) {}

@@ -23,7 +23,7 @@ double median_step(std::vector<double> levels) {
 }  // namespace
 
 Levels count_levels(const Image<double>& values) {
-  // A hash table with open addressing, large enough to stay sparse: the count ends at kMostLevels + 1.
+  // A hash table with open addressing, large enough to stay sparse, because counting ends at kMostLevels + 1.
   constexpr int kTableBits = 18;
   static_assert(kMostLevels < (std::size_t{1} << kTableBits) / 2);
   constexpr std::size_t kMask = (std::size_t{1} << kTableBits) - 1;
@@ -32,7 +32,7 @@ Levels count_levels(const Image<double>& values) {
   std::vector<double> few;
   for (const double value : values.values) {
     if (std::isnan(value)) continue;
-    // Adding zero makes −0 the same as 0. The multiplier is 2^64 over the golden ratio (Fibonacci hashing).
+    // Adding zero turns −0 into 0. The multiplier is 2^64 over the golden ratio (Fibonacci hashing).
     std::size_t slot = (std::bit_cast<std::uint64_t>(value + 0.0) * 0x9e3779b97f4a7c15u) >> (64 - kTableBits);
     while (!std::isnan(table[slot]) && table[slot] != value) slot = (slot + 1) & kMask;
     if (table[slot] == value) continue;

@@ -2,7 +2,7 @@
 
 namespace heightlight {
 
-/// So many threads, and no more, for the libraries that read and write pictures: they would take one per
+/// Limits the libraries that read and write pictures to so many threads. Otherwise they would start one per
 /// processor of the machine.
 void limit_library_threads(int threads);
 

@@ -19,7 +19,7 @@
 namespace heightlight {
 namespace {
 
-/// Lengths beyond these are typing errors, and their squares leave single precision.
+/// Lengths outside these limits are typing errors, and their squares exceed single precision.
 constexpr double kShortest = 1e-12;
 constexpr double kLongest = 1e12;
 
@@ -30,7 +30,7 @@ void check_length(const char* quantity, const std::optional<double>& value) {
     throw UsageError(quantity, fmt::format("{:g}", *value), "must be from 1e-12 to 1e12");
 }
 
-/// Notes what heights tell of a place whose file does not say whether it is in degrees.
+/// Uses the heights to decide whether cells are in degrees, where the file does not say.
 void judge_place(StoredHeights& stored) {
   if (!stored.place || stored.place->in_degrees || stored.place->metres) return;
   const double span = stored.facts.highest - stored.facts.lowest;
@@ -38,8 +38,9 @@ void judge_place(StoredHeights& stored) {
       looks_like_degrees(*stored.place, stored.values.width, stored.values.height, span);
 }
 
-/// What is made of the map has the no-data value that its file has, or the one that it was read with: in
-/// single precision, which results are in. A tag that is no number goes; programs would take it for 0.
+/// Results made from the map get the no-data value of its file, or the one with which it was read, limited to
+/// single precision, the precision of results. A tag that is not a number is removed, because programs would
+/// read it as 0.
 void note_no_data(const std::optional<double>& no_data, Georeference& place) {
   const GeoTag* tag = find_tag(place.tags, kGdalNoDataTag);
   const std::optional<double> told = tag ? parse_no_data(text_of(*tag)) : std::nullopt;
@@ -53,7 +54,7 @@ void note_no_data(const std::optional<double>& no_data, Georeference& place) {
       make_tag(kGdalNoDataTag, fmt::format("{:.17g}", is_beyond ? std::copysign(kLargest, *value) : *value)));
 }
 
-/// A place that cannot be used is no obstacle where the spacing is given; it is left out then.
+/// A georeference that cannot be used is left out if the spacing is given; otherwise it is an error.
 void check_place(const InputFile& file, const LoadOptions& options, StoredHeights& stored) {
   if (stored.place_fault.empty()) return;
   if (!options.texel) throw file.error(stored.place_fault + "; or give the spacing", "texel");
@@ -71,7 +72,7 @@ Spacing choose_spacing(const InputFile& file, const LoadOptions& options, Stored
   return cell;
 }
 
-/// Of the file's columns and rows.
+/// Converts the memory of work on the shrunk map to a function of the file's columns and rows.
 WorkBytes after_shrinking(const WorkBytes& work, int factor) {
   if (!work || factor == 1) return work;
   return [&work, factor](int columns, int rows) {
@@ -79,13 +80,13 @@ WorkBytes after_shrinking(const WorkBytes& work, int factor) {
   };
 }
 
-/// How stored values become heights above the lowest of them.
+/// Converts stored values to heights above the lowest one.
 struct HeightRule {
   double scale = 1;  ///< height per stored value
   bool invert = false;
-  double lowest = 0;  ///< stored values
+  double lowest = 0;  ///< in stored values
   double highest = 0;
-  bool is_stretched = false;  ///< to a relief that is not the file's own
+  bool is_stretched = false;  ///< to a relief that the file does not give
 
   float operator()(double value) const {
     return static_cast<float>((invert ? highest - value : value - lowest) * scale);
@@ -93,7 +94,7 @@ struct HeightRule {
   double relief() const { return (highest - lowest) * scale; }
 };
 
-/// `map` has its spacing.
+/// Makes the rule; `map` must already have its spacing.
 HeightRule height_rule(const InputFile& file, const LoadOptions& options, const StoredHeights& stored,
                        const Heightmap& map) {
   std::optional<double> relief = options.relief;
@@ -111,7 +112,7 @@ HeightRule height_rule(const InputFile& file, const LoadOptions& options, const 
   return rule;
 }
 
-/// Where the lowest height is in the world.
+/// World height of the lowest height.
 double base_of(const HeightRule& rule, const LoadOptions& options, const StoredHeights& stored) {
   if (rule.is_stretched) return 0;
   return (rule.invert ? -rule.highest : rule.lowest) * rule.scale + options.offset.value_or(stored.offset);
@@ -123,7 +124,7 @@ Image<float> to_heights(const Image<double>& values, const HeightRule& rule) {
   return heights;
 }
 
-/// Beyond single precision's squares nothing can be computed; `suspects` may tell why.
+/// Steeper slopes overflow single precision when squared. `suspects` may explain them.
 void check_slopes(const InputFile& file, double relief, const Spacing& spacing,
                   const std::vector<Warning>& suspects) {
   constexpr double kSteepest = 1e12;
@@ -192,7 +193,7 @@ LoadedHeightmap load_heightmap(const std::filesystem::path& path, const LoadOpti
 
 namespace {
 
-/// By how much the Earth's curvature lowers the lowest height.
+/// The lowest height after subtraction of the Earth's curvature.
 double lowest_when_curved(StoredHeightRows& rows, const HeightRule& rule, const Heightmap& map) {
   double lowest = std::numeric_limits<double>::infinity();
   rows.for_rows([&](int first, const Image<double>& values) {

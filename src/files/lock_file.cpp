@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether the open file still has this name: whoever held it before may have removed it since.
+/// Whether the open file still has this name; its former holder may have removed the name meanwhile.
 bool is_named(int descriptor, const fs::path& path) {
   struct stat opened {};
   struct stat named {};
@@ -28,7 +28,7 @@ bool is_named(int descriptor, const fs::path& path) {
          opened.st_ino == named.st_ino && opened.st_dev == named.st_dev;
 }
 
-/// Those of this process. Never destroyed: the end of the process needs them.
+/// The locks of this process. Never destroyed, because the end of the process needs them.
 struct HeldLocks {
   std::mutex mutex;
   std::set<const fs::path*> files;
@@ -43,7 +43,7 @@ HeldLocks& held_locks() {
 
 std::unique_ptr<LockFile> LockFile::try_take(const fs::path& path) {
   for (;;) {
-    // Open for writing: NFS grants exclusive locks to no others.
+    // Opened for writing, because NFS grants exclusive locks only then.
     const int descriptor = open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
     if (descriptor < 0) throw output_error(path, errno);
     const bool is_held = flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
@@ -69,12 +69,13 @@ LockFile::LockFile(fs::path path, int descriptor) : path_(std::move(path)), desc
 LockFile::~LockFile() {
   const std::lock_guard guard(held_locks().mutex);
   held_locks().files.erase(&path_);
-  unlink(path_.c_str());  // while it is still held: nobody else can have taken it under this name
+  // while the lock is held, so that nobody else can have taken the lock under this name
+  unlink(path_.c_str());
   close(descriptor_);
 }
 
 void leave_locks() {
-  held_locks().mutex.lock();  // and never unlocked: a file of this name may soon be another's
+  held_locks().mutex.lock();  // never unlocked: a file with this name may soon be another process's
   for (const fs::path* file : held_locks().files) unlink(file->c_str());
 }
 

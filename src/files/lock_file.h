@@ -5,17 +5,18 @@
 
 namespace heightlight {
 
-/// A piece of work that one process at a time does, until this object or its process ends: a file, empty,
-/// that is there meanwhile. What a killed process left locks nothing. Processes on several machines exclude
-/// each other where their common file system passes locks on (NFS does, as byte-range locks).
+/// A lock on work that only one process at a time may do. It is held until this object or its process ends,
+/// and is represented by an empty file that exists meanwhile. A file left by a killed process locks nothing.
+/// Processes on several machines exclude each other if their common file system forwards locks (NFS does, as
+/// byte-range locks).
 class LockFile {
  public:
-  /// Nothing where another holds it. Where the file system knows no locks, whoever asks gets it: work then
-  /// may be done twice, which results that appear whole or not at all survive. Throws OutputError naming the
-  /// path when no file can be made there.
+  /// Returns null where another process holds the lock. If the file system does not support locks, every
+  /// caller gets it: work may then be done twice, which is harmless for results that appear whole or not at
+  /// all. Throws OutputError naming the path when no file can be made there.
   static std::unique_ptr<LockFile> try_take(const std::filesystem::path& path);
 
-  /// Waits until nobody else holds it. Throws Cancelled, too.
+  /// Waits until no other process holds the lock. Throws as try_take does, and Cancelled.
   static std::unique_ptr<LockFile> take(const std::filesystem::path& path);
 
   ~LockFile();
@@ -29,10 +30,10 @@ class LockFile {
   int descriptor_;
 };
 
-/// Removes the files of the locks that this process holds, which must end at once, and stay held until then.
+/// Removes the lock files of this process, which must end at once; the locks stay held until then.
 void leave_locks();
 
-/// Between two looks at locks that others hold: sleeps for a fifth of a second. Throws Cancelled.
+/// Sleeps for a fifth of a second, between two attempts to take locks that others hold. Throws Cancelled.
 void wait_for_locks();
 
 }  // namespace heightlight

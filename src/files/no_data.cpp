@@ -26,10 +26,10 @@ std::optional<double> nearest_float(double value) {
   return static_cast<double>(static_cast<float>(value));
 }
 
-/// Halves have 11 significant bits, and an exponent of at least −14.
+/// The nearest half: 11 significant bits, exponent at least −14.
 std::optional<double> nearest_half(double value) {
   constexpr double kLargest = 65504;
-  if (std::abs(value) > kLargest) return std::nullopt;  // no sample is that large
+  if (std::abs(value) > kLargest) return std::nullopt;  // no half is that large
   const double unit = std::ldexp(1, (value == 0 ? -14 : std::max(std::ilogb(value), -14)) - 10);
   return std::nearbyint(value / unit) * unit;
 }

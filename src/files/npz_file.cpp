@@ -8,10 +8,10 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "arrays are written as they lie in memory");
 
-constexpr std::uint16_t kVersion = 45;  // of zip: the first with 64-bit sizes
+constexpr std::uint16_t kVersion = 45;  // version of zip: the first with 64-bit sizes
 constexpr std::uint32_t kSeeExtra = 0xffffffff;
 
-/// Little-endian fields, side by side.
+/// A record of consecutive little-endian fields.
 class Record {
  public:
   template <class T>
@@ -31,16 +31,17 @@ class Record {
 
 std::uint64_t position(std::FILE* stream) { return static_cast<std::uint64_t>(ftello(stream)); }
 
-/// From the version to the lengths of what follows, as both headers of a member have it.
+/// Adds the fields from the version to the lengths of name and extra field, which both headers of a member
+/// share.
 void add_facts(Record& record, std::uint32_t crc, const std::string& name, std::uint16_t extra) {
   constexpr std::uint16_t kMidnight = 0;
-  constexpr std::uint16_t kFirstDay = (1 << 5) + 1;  // of January 1980: the same bytes for the same arrays
+  constexpr std::uint16_t kFirstDay = (1 << 5) + 1;  // 1 January 1980, so that equal arrays make equal bytes
   record.add(kVersion).add<std::uint16_t>(0).add<std::uint16_t>(0).add(kMidnight).add(kFirstDay);
   record.add(crc).add(kSeeExtra).add(kSeeExtra);
   record.add(static_cast<std::uint16_t>(name.size())).add(extra);
 }
 
-/// What a `.npy` file begins with: padded, so that the values are aligned to 64 bytes.
+/// The header of a `.npy` file, padded so that the values are aligned to 64 bytes.
 std::string array_header(const std::string& type, const std::vector<std::uint64_t>& shape) {
   std::string facts = "{'descr': '" + type + "', 'fortran_order': False, 'shape': (";
   for (const std::uint64_t count : shape) facts += std::to_string(count) + ",";
@@ -73,7 +74,7 @@ void NpzFile::append(const void* data, std::size_t bytes) {
   std::fwrite(data, 1, bytes, stream_);
 }
 
-/// Its header, now that sizes are known.
+/// Writes the member's header again, now that the sizes are known.
 void NpzFile::end_array() {
   Member& member = members_.back();
   member.crc = crc_.checksum();

@@ -8,17 +8,19 @@
 
 namespace heightlight {
 
-/// Arrays for numpy.load, one after the other into one file: a zip archive of `.npy` files, uncompressed,
-/// with 64-bit sizes (APPNOTE.TXT 6.3.10, 4.3.7 and 4.5.3; numpy's format 1.0). What has been said of an
-/// array must be written before the next begins. Faults of the stream are its owner's to find.
+/// Writes arrays for numpy.load, one after the other, into one file: a zip archive of uncompressed `.npy`
+/// files with 64-bit sizes (APPNOTE.TXT 6.3.10, 4.3.7 and 4.5.3; numpy's format 1.0). All bytes that an
+/// array's shape and type announce must be written before the next array begins. Write errors are not
+/// reported here; the owner of the stream must check it.
 class NpzFile {
  public:
   explicit NpzFile(std::FILE* stream) : stream_(stream) {}
 
-  /// `name` without ".npy"; `type` as numpy has it, "<f8", "<i8", "|S3"; `shape`: of none, a scalar.
+  /// Begins an array. `name` is without ".npy"; `type` is in numpy's notation: "<f8", "<i8", "|S3"; an empty
+  /// `shape` means a scalar.
   void begin_array(const std::string& name, const std::string& type, const std::vector<std::uint64_t>& shape);
 
-  /// The next bytes of the array.
+  /// Appends the next bytes of the current array.
   void append(const void* data, std::size_t bytes);
 
   template <class T>
@@ -26,13 +28,13 @@ class NpzFile {
     append(values.data(), values.size() * sizeof(T));
   }
 
-  /// The archive's directory. Nothing may follow.
+  /// Writes the archive's directory. Nothing may follow.
   void finish();
 
  private:
   struct Member {
     std::string name;
-    std::uint64_t begin = 0;  ///< of its header
+    std::uint64_t begin = 0;  ///< offset of the member's header in the file, in bytes
     std::uint64_t size = 0;
     std::uint32_t crc = 0;
   };

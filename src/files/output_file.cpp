@@ -22,10 +22,10 @@ void write_file(const std::filesystem::path& path, const std::function<void(std:
   if (!file) throw output_error(path, errno);
   try {
     write(file.get());
-  } catch (const std::system_error& fault) {  // of formatted output
+  } catch (const std::system_error& fault) {  // from formatted output
     throw output_error(path, fault.code().value());
   }
-  // A full disk may show only when the last bytes leave the buffer.
+  // A full disk may show only when the last bytes are flushed.
   if (std::fflush(file.get()) != 0 || std::ferror(file.get()))
     throw output_error(path, errno == 0 ? EIO : errno);
 }

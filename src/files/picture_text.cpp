@@ -1,4 +1,4 @@
-// stb's letters, for this file alone: no other program that we are linked into sees its names.
+// stb's letters, for this file alone; their names are not visible to a program that links this library.
 #include "files/picture_text.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace heightlight {
 namespace {
 
-/// What stb writes for each corner of a rectangle.
+/// The vertex that stb writes for each corner of a rectangle.
 struct Corner {
   float x;
   float y;

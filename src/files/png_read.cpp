@@ -13,13 +13,14 @@
 namespace heightlight {
 namespace {
 
-/// What libpng says while it reads. It leaves by a jump, past which no object may live: all that does lives
-/// in here and in the image.
+/// State of a libpng reader. libpng reports errors with longjmp, which must not skip destructors; hence all
+/// objects that are alive during reading are members of this struct or of the image.
 struct PngState {
   png_structp png = nullptr;
   png_infop info = nullptr;
   std::string fault;
-  std::set<std::string> bad_sums;  ///< kinds of chunks that may be left out, and were
+  /// types of the optional chunks with a wrong checksum, which libpng skipped
+  std::set<std::string> bad_sums;
   std::vector<png_bytep> rows;
 
   PngState() = default;
@@ -35,13 +36,14 @@ PngState& state_of(png_structp png) { return *static_cast<PngState*>(png_get_err
   png_longjmp(png, 1);
 }
 
-/// Of a chunk that libpng leaves out. Only tRNS says anything of the samples: which are transparent.
+/// Handles a warning about a chunk that libpng skips. Only tRNS affects the samples: it says which are
+/// transparent.
 void note_warning(png_structp png, png_const_charp message) {
   if (std::strncmp(message, "tRNS", 4) == 0) note_error(png, message);
   if (std::strstr(message, "CRC error")) state_of(png).bad_sums.emplace(message, 4);
 }
 
-/// The image header chunk, which comes first.
+/// The image header chunk, which comes first in a PNG.
 struct PngHeader {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
@@ -67,10 +69,11 @@ PngHeader read_first_chunk(const InputFile& file) {
   return {big_endian(&bytes[16]), big_endian(&bytes[20]), bytes[24], bytes[25]};
 }
 
-/// Most channels that samples of a colour type can have: a transparent palette makes four of one.
+/// The largest number of channels for a colour type; a palette with transparency expands to four.
 std::uint64_t most_channels(int colour_type) { return colour_type == PNG_COLOR_TYPE_GRAY ? 2 : 4; }
 
-/// Up to the first sample, with the transformations that make 8 or 16 bits a channel of any kind of PNG.
+/// Reads up to the first sample, and sets transformations that give 8 or 16 bits per channel for every kind
+/// of PNG.
 bool read_header(PngState& state, std::FILE* stream) {
   if (setjmp(png_jmpbuf(state.png))) return false;
   png_init_io(state.png, stream);

@@ -1,5 +1,5 @@
-// stb's encoder, for this file alone: no other program that we are linked into sees its names.
-// clang-tidy is shown declarations alone: it finds an allocation of size 0 in there that cannot come about.
+// stb's encoder, for this file alone; its names are not visible to a program that links this library.
+// clang-tidy sees only the declarations: in the code, it reports an allocation of size 0 that cannot happen.
 #ifndef __clang_analyzer__
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STB_IMAGE_WRITE_STATIC

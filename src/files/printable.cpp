@@ -6,8 +6,8 @@
 namespace heightlight {
 namespace {
 
-/// Bytes of the UTF-8 sequence that `text` begins with (RFC 3629), and what it encodes; of one byte, U+FFFF
-/// where there is none.
+/// The UTF-8 sequence at the beginning of a text (RFC 3629): its length in bytes and its code point. Where
+/// there is no valid sequence, it is one byte and U+FFFF.
 struct Sequence {
   std::size_t bytes = 1;
   std::uint32_t code = 0xffff;
@@ -29,8 +29,8 @@ Sequence first_sequence(std::string_view text) {
   return {bytes, code};
 }
 
-/// C0 and C1 controls, line and paragraph separators, marks that turn the direction of writing, surrogates,
-/// and what is no character.
+/// Whether a code point may be printed. Not printable: C0 and C1 controls, line and paragraph separators,
+/// marks that change the direction of writing, surrogates, and code points that are not characters.
 bool is_printable(std::uint32_t code) {
   const bool control = code < 0x20 || (code >= 0x7f && code < 0xa0) || code == 0x2028 || code == 0x2029;
   const bool turns = (code >= 0x202a && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069);

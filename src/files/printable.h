@@ -5,12 +5,12 @@
 
 namespace heightlight {
 
-/// Text from outside (names of files, what files say), fit for one line of a terminal, a table or an XML
-/// file. A '?' stands for each control character, for each byte that is no UTF-8, and for code points that
-/// XML 1.0 (2.2) has not.
+/// Makes text from outside (file names, contents of files) fit for one line of a terminal, a table or an XML
+/// file. Each control character, each byte that is not UTF-8, and each code point that XML 1.0 (2.2) does not
+/// allow becomes a '?'.
 std::string printable(const std::string& text);
 
-/// A path likewise.
+/// As above, for a path.
 inline std::string printable(const std::filesystem::path& path) { return printable(path.string()); }
 
 /// Whether a text is UTF-8 throughout.

@@ -22,15 +22,15 @@ std::string upper_case(std::string text) {
   return text;
 }
 
-/// What stands in the quotation marks behind a place; empty where none do.
+/// The quoted text that follows position `at`; empty if there is none.
 std::string quoted_behind(const std::string& text, std::size_t at) {
   const std::size_t begin = text.find('"', at);
   const std::size_t end = begin == std::string::npos ? begin : text.find('"', begin + 1);
   return end == std::string::npos ? "" : text.substr(begin + 1, end - begin - 1);
 }
 
-/// Of the whole system the code comes last, behind all that it is made of: AUTHORITY["EPSG","32631"]] or
-/// ID["EPSG",32631]].
+/// The EPSG code of the whole system, which comes last, after those of its components:
+/// AUTHORITY["EPSG","32631"]] or ID["EPSG",32631]].
 std::string epsg_code(const std::string& text) {
   const std::size_t at = text.rfind("\"EPSG\",");
   if (at == std::string::npos) return "";
@@ -41,7 +41,7 @@ std::string epsg_code(const std::string& text) {
   return digits > 0 && is_last ? "EPSG:" + code.substr(0, digits) : "";
 }
 
-/// The number behind the name in the last bracket of that keyword: UNIT["metre",1.0].
+/// The number after the name in the last bracket of that keyword: UNIT["metre",1.0].
 std::optional<double> last_number(const std::string& upper, const std::string& keyword) {
   const std::size_t at = upper.rfind(keyword + "[\"");
   const std::size_t comma = at == std::string::npos ? at : upper.find("\",", at);
@@ -50,7 +50,8 @@ std::optional<double> last_number(const std::string& upper, const std::string& k
   return number > 0 ? std::optional(number) : std::nullopt;
 }
 
-/// The first of these keywords that stands before a bracket, with all up to where that closes.
+/// The text of the first bracket that follows one of these keywords, including the keyword and the closing
+/// bracket.
 std::string first_node(const std::string& text, const std::string& upper,
                        std::initializer_list<const char*> keywords) {
   std::size_t begin = std::string::npos;
@@ -67,7 +68,7 @@ std::string first_node(const std::string& text, const std::string& upper,
   return text.substr(begin);
 }
 
-/// False where it names no horizontal system.
+/// Reads well-known text. Returns false if it names no horizontal system.
 bool note_well_known_text(const std::string& text, Georeference& place) {
   const std::string all = upper_case(text);
   const std::string system = first_node(
@@ -86,7 +87,8 @@ bool note_well_known_text(const std::string& text, Georeference& place) {
   return true;
 }
 
-/// Of these a code is known for degrees, and for the northern zones of UTM, on WGS 84.
+/// Reads the older list of keywords. EPSG codes are known for degrees and for the northern UTM zones, on WGS
+/// 84.
 void note_keywords(const std::string& upper, Georeference& place) {
   const auto metres_named = [](const std::string& unit) {
     return unit == "METERS" || unit == "METRES" ? std::optional(1.0)
@@ -111,7 +113,7 @@ void note_keywords(const std::string& upper, Georeference& place) {
   }
 }
 
-/// Control characters, line breaks among them, as blanks; none at the end.
+/// Replaces control characters, including line breaks, by blanks, and removes trailing blanks.
 std::string on_one_line(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');

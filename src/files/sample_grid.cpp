@@ -16,13 +16,13 @@
 namespace heightlight {
 namespace {
 
-/// How one sample is stored.
+/// A sample type.
 struct SampleKind {
-  const char* code;  ///< of NumPy, without its byte order
+  const char* code;  ///< NumPy's type code without byte order
   const char* name;
   std::size_t bytes;
   bool is_integer;
-  double (*read)(const unsigned char* bytes);  ///< in this machine's order
+  double (*read)(const unsigned char* bytes);  ///< reads one sample in this machine's byte order
 };
 
 template <class T>
@@ -32,7 +32,7 @@ double read_as(const unsigned char* bytes) {
   return static_cast<double>(value);
 }
 
-/// IEEE 754's 16 bits: sign, 5 of exponent, 10 of fraction.
+/// Reads an IEEE 754 half: 1 sign bit, 5 exponent bits, 10 fraction bits.
 double read_half(const unsigned char* bytes) {
   std::uint16_t half = 0;
   std::memcpy(&half, bytes, sizeof half);
@@ -63,12 +63,12 @@ const SampleKind& find_type(std::string_view code) {
                        [&](const SampleKind& type) { return type.code == code; });
 }
 
-/// Where samples lie in a file.
+/// Position and layout of the samples in a file.
 struct SampleLayout {
   const SampleKind& type;
   int width = 0;
   int height = 0;
-  std::uint64_t begin = 0;  ///< byte of the first
+  std::uint64_t begin = 0;  ///< offset of the first sample, in bytes
   bool big_endian = false;
   bool by_columns = false;
 };
@@ -103,7 +103,7 @@ SampleGrid read_samples(const InputFile& file, const SampleLayout& layout, const
   return grid;
 }
 
-/// What stands behind `'key':` in the dictionary of a NumPy header, up to the next key.
+/// The text after `'key':` in the dictionary of a NumPy header, up to the next key.
 std::string header_value(const InputFile& file, const std::string& header, const std::string& key) {
   const std::size_t at = header.find("'" + key + "':");
   if (at == std::string::npos) throw file.error("is damaged: its header has no " + key);
@@ -114,7 +114,7 @@ std::string header_value(const InputFile& file, const std::string& header, const
   return value;
 }
 
-/// "(480, 640)": rows and columns.
+/// Reads a shape such as "(480, 640)": rows and columns.
 std::array<int, 2> parse_shape(const InputFile& file, const std::string& text) {
   std::array<int, 2> shape{};
   std::size_t count = 0;
@@ -133,7 +133,7 @@ std::array<int, 2> parse_shape(const InputFile& file, const std::string& text) {
   return shape;
 }
 
-/// Degrees of "N45" or "W123" at a place in a name; nothing where there are none.
+/// Degrees from "N45" or "W123" at position `at` in a name; empty if there are none.
 std::optional<double> parse_degrees(const std::string& name, std::size_t at, std::size_t digits,
                                     std::string_view letters) {
   if (name.size() < at + 1 + digits) return std::nullopt;
@@ -159,7 +159,7 @@ SampleGrid read_numpy(const InputFile& file, const ReadLimit& limit) {
   std::array<unsigned char, 12> head{};
   std::FILE* stream = file.rewound();
   if (std::fread(head.data(), 1, head.size(), stream) != head.size()) throw file.error("is truncated");
-  const bool is_long = head[6] >= 2;  // of the version: four bytes of length
+  const bool is_long = head[6] >= 2;  // version 2 and later: the header's length has four bytes
   const std::uint64_t begin = is_long ? 12 : 10;
   std::uint64_t length = head[8] | head[9] << 8;
   if (is_long) length |= static_cast<std::uint64_t>(head[10] | head[11] << 8) << 16;
@@ -201,7 +201,7 @@ std::optional<Georeference> srtm_place(const InputFile& file) {
   const std::optional<double> south = parse_degrees(name, 0, 2, "NS");
   const std::optional<double> west = parse_degrees(name, 3, 3, "EW");
   if (side == 0 || !south || !west) return std::nullopt;
-  // The outermost samples lie on the degree's border: their cells reach half a cell beyond it.
+  // The outermost samples lie on the degree's border, so their cells extend half a cell beyond it.
   const double cell = 1.0 / (side - 1);
   Georeference place{.corner = {{*west - cell / 2, *south + 1 + cell / 2}},
                      .cell = {cell, cell},

@@ -23,7 +23,7 @@ const FileRecord* find_record(const RunSummary& run, const std::string& name) {
   return found == run.files.end() ? nullptr : &*found;
 }
 
-/// The file must be what the summary beside it records.
+/// Throws Error unless the file is the one that the summary beside it records.
 void check_recorded(const InputFile& file, const FileRecord& record) {
   if (file.size() == record.bytes && sha256_of_file(file) == record.sha256) return;
   throw file.error(
@@ -32,7 +32,7 @@ void check_recorded(const InputFile& file, const FileRecord& record) {
       "again");
 }
 
-/// One float channel of `size` texels a side, or of any size where that is 0 × 0.
+/// Reads one float channel of width × height texels, or of any size if width is 0.
 Map read_map(const std::filesystem::path& folder, const FileRecord& record, int width, int height,
              std::uint64_t memory_limit) {
   const std::filesystem::path path = folder / record.name;
@@ -54,7 +54,7 @@ Map read_map(const std::filesystem::path& folder, const FileRecord& record, int 
   return map;
 }
 
-/// Bounces as they are added up, in double.
+/// Sums of bounces, in double precision.
 struct Sums {
   std::vector<double> all;                    ///< E₀ + … + E_b
   std::vector<std::vector<double>> weighted;  ///< Σ ρ^b E_b, per albedo
@@ -123,7 +123,8 @@ SavedTexels read_saved_texels(const std::filesystem::path& folder, const RunSumm
   saved.ambient_occlusion = read("ambient_occlusion.exr", 0, 0);
   const int width = saved.ambient_occlusion.width;
   const int height = saved.ambient_occlusion.height;
-  // The three maps, bounces as read and as kept, and the sums; totals replace those.
+  // Memory for three maps, bounces as read and as kept, and the sums. The totals later take the place of the
+  // sums.
   const std::uint64_t bytes_per_texel = 6 * sizeof(float) + (albedos.size() + 1) * sizeof(double);
   check_map_size(folder / "ambient_occlusion.exr", static_cast<std::uint64_t>(width),
                  static_cast<std::uint64_t>(height), bytes_per_texel, memory_limit);

@@ -11,42 +11,42 @@
 
 namespace heightlight {
 
-/// What `simulate` says of itself in summary.json, as far as fits want to know it.
+/// The parts of summary.json, which `simulate` writes, that fits need.
 struct RunSummary {
   std::string map;     ///< the heightmap's file name, without folder and extension
-  std::string sha256;  ///< of that file
+  std::string sha256;  ///< checksum of that file
   bool tiles = true;
   double relief = 0;         ///< peak to valley, world units
-  double texel_x = 0;        ///< spacing along the rows
+  double texel_x = 0;        ///< spacing along the rows, world units
   double width = 0;          ///< world units
   double expected_seen = 1;  ///< s, as SeenSky in the summary
   double measured_seen = 1;
-  std::vector<FileRecord> files;  ///< of the run, as they were written
+  std::vector<FileRecord> files;  ///< files of the run, as they were written
 };
 
-/// The summary beside `curves`; nothing where there is none, or where it does not speak of a file of that
-/// name. Throws Error naming the file where the summary is damaged or tells less than today's, or where the
-/// curves are not those that it records: files of several runs are mixed.
+/// Reads the summary beside `curves`. Empty where there is none, or where it does not mention a file of that
+/// name. Throws Error naming the file where the summary is damaged or lacks entries that today's summaries
+/// have, or where the curves are not the ones that it records, because files of several runs are mixed.
 std::optional<RunSummary> read_run_summary(const std::filesystem::path& curves);
 
-/// What `simulate --save-bounces` left of every texel, brought to totals: all maps of one size, E/π, NaN
-/// where missing.
+/// Maps that `simulate --save-bounces` saved, with bounces summed to totals. All maps have one size;
+/// irradiance is E/π; NaN where missing.
 struct SavedTexels {
   Map ambient_occlusion;
   Map sky_view_factor;
   Map first_bounce;         ///< E₁/π at ρ = 1
-  std::vector<Map> totals;  ///< of all bounces, per albedo asked for
+  std::vector<Map> totals;  ///< total irradiance / π, one map per albedo asked for
 };
 
-/// "irradiance_07.exr": what holds bounce 7.
+/// Name of the file that holds a bounce: "irradiance_07.exr" for bounce 7.
 std::string bounce_file(int bounce);
 
-/// Whether the run kept its bounces apart: irradiance_00.exr, irradiance_01.exr, ….
+/// Whether the run saved its bounces separately: irradiance_00.exr, irradiance_01.exr, ….
 bool has_saved_texels(const RunSummary& run);
 
-/// Reads them from the run's folder and sums them up: Σ ρ^b E_b, and conserve_tail for what comes after the
-/// last. Throws Error naming the file that is missing, damaged, of another size or of another run, or when
-/// `memory_limit` bytes don't hold them.
+/// Reads the maps from the run's folder and sums the bounces: Σ ρ^b E_b, plus conserve_tail for all bounces
+/// after the last saved one. Throws Error naming a file that is missing, damaged, of another size or of
+/// another run, and where `memory_limit` bytes do not hold the maps.
 SavedTexels read_saved_texels(const std::filesystem::path& folder, const RunSummary& run,
                               const std::vector<double>& albedos, std::uint64_t memory_limit);
 

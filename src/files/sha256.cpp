@@ -25,7 +25,7 @@ std::string to_hexadecimal(const unsigned char* bytes, unsigned int count) {
   return text;
 }
 
-/// One SHA-256, fed bit by bit.
+/// Computes one SHA-256 from data that arrive in pieces.
 class Sha256 {
  public:
   Sha256() : context_(EVP_MD_CTX_new()) {

@@ -10,7 +10,7 @@
 namespace heightlight {
 namespace {
 
-/// Levels over the largest; floats as they are.
+/// Integer samples are divided by the largest level; floats stay as they are.
 Map decode(const StoredImage& image, std::size_t channel) {
   Map map(image.width, image.height);
   std::visit(
@@ -26,7 +26,7 @@ Map decode(const StoredImage& image, std::size_t channel) {
   return map;
 }
 
-/// Colours of JPEGs differ by some levels where they are meant to be grey.
+/// Colours that are meant to be grey differ by some levels in a JPEG.
 bool is_grey(const Map& red, const Map& green, const Map& blue) {
   constexpr double kAlike = 0.02;
   double difference = 0;
@@ -37,7 +37,7 @@ bool is_grey(const Map& red, const Map& green, const Map& blue) {
   return difference < kAlike * static_cast<double>(red.size());
 }
 
-/// Floats may hold components themselves: some of them are below 0 then.
+/// Whether a map has values below 0. Then floats hold the components of normals themselves.
 bool has_negative(const Map& map) {
   for (const float value : map.values) {
     if (value < 0) return true;
@@ -46,8 +46,8 @@ bool has_negative(const Map& map) {
 }
 
 Image<Vector3> to_normals(const InputFile& file, const Map& red, const Map& green, const Map& blue) {
-  constexpr double kUnit = 0.15;   // how far from 1 a length may be
-  constexpr double kNearly = 0.9;  // of all texels
+  constexpr double kUnit = 0.15;   // largest deviation of a unit vector's length from 1
+  constexpr double kNearly = 0.9;  // fraction of the texels that must be unit vectors
   const bool is_signed = has_negative(red) || has_negative(green);
   const auto component = [is_signed](float stored) { return is_signed ? stored : 2 * stored - 1; };
   Image<Vector3> normals(red.width, red.height);
@@ -65,7 +65,7 @@ Image<Vector3> to_normals(const InputFile& file, const Map& red, const Map& gree
   return normals;
 }
 
-/// Three channels, and what is made of them.
+/// Bytes for three channels and the normals made from them.
 std::uint64_t shipped_bytes(int columns, int rows) {
   return (3 * sizeof(float) + sizeof(Vector3)) * static_cast<std::uint64_t>(columns) *
          static_cast<std::uint64_t>(rows);

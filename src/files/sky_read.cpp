@@ -9,9 +9,9 @@
 namespace heightlight {
 namespace {
 
-/// Where red, green and blue are among the channels; of a grey image, all the same.
+/// Indices of red, green and blue among the channels; for a grey image, all are the same.
 std::array<std::size_t, 3> find_colours(const InputFile& file, const std::vector<std::string>& channels) {
-  if (channels.size() <= 2 && !channels.empty()) return {0, 0, 0};  // grey, and alpha perhaps
+  if (channels.size() <= 2 && !channels.empty()) return {0, 0, 0};  // grey, possibly with alpha
   constexpr std::array<const char*, 3> kColours{"R", "G", "B"};
   std::array<std::size_t, 3> places{};
   for (std::size_t c = 0; c < places.size(); ++c) {

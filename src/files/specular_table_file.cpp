@@ -60,7 +60,7 @@ std::string describe_layout(int side) {
       side);
 }
 
-/// Key and value with their length before them, padded to whole words.
+/// The key and its value, preceded by their length, and padded to whole words.
 std::string key_and_value(int side) {
   std::string pair = std::string(kKey) + '\0' + describe_layout(side) + '\0';
   std::string bytes;
@@ -89,7 +89,7 @@ void write_specular_table(const std::filesystem::path& path, const SpecularTable
 
 SpecularTable read_specular_table(const std::filesystem::path& path) {
   const InputFile file(path);
-  constexpr std::uint64_t kMost = 64ULL * 64 * 64 * 64 + 65536;  // the largest table, and words about it
+  constexpr std::uint64_t kMost = 64ULL * 64 * 64 * 64 + 65536;  // the largest table, and its description
   if (file.size() > kMost) throw file.error("is larger than any table of specular occlusion");
   std::vector<char> bytes(file.size());
   if (std::fread(bytes.data(), 1, bytes.size(), file.rewound()) != bytes.size())

@@ -23,11 +23,11 @@ void sync_to_disk(const fs::path& staged, const fs::path& destination) {
   const int result = fsync(descriptor);
   const int error_number = errno;
   close(descriptor);
-  // Some file systems have nothing to sync to and say EINVAL.
+  // Some file systems have nothing to sync to and return EINVAL.
   if (result != 0 && error_number != EINVAL) throw output_error(destination, error_number);
 }
 
-/// So that the names in a folder survive a power cut; as far as the system lets us.
+/// Syncs a folder, so that the names in it survive a power failure; failures are ignored.
 void sync_names(const fs::path& folder) {
   const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return;
@@ -35,7 +35,7 @@ void sync_names(const fs::path& folder) {
   close(descriptor);
 }
 
-/// A rename would replace a device or fail on a folder; both are refused before work is spent.
+/// A rename would replace a device and fail on a folder. Both are rejected here, before any work is done.
 void check_replaceable(const fs::path& destination) {
   std::error_code ignored;
   const fs::file_status status = fs::status(destination, ignored);
@@ -51,7 +51,7 @@ void rename_into_place(const fs::path& staged, const fs::path& destination) {
   if (failure) throw output_error(destination, failure.message());
 }
 
-/// The topmost folder on the way to `folder` that does not exist; empty when all do.
+/// The topmost folder on the way to `folder` that does not exist; empty if all exist.
 fs::path topmost_missing(fs::path folder) {
   fs::path missing;
   std::error_code ignored;
@@ -59,7 +59,7 @@ fs::path topmost_missing(fs::path folder) {
   return missing;
 }
 
-/// Removes `folder` and its parents up to `top`; a folder that is not empty stays, and so do those above it.
+/// Removes `folder` and its parents up to `top`. A folder that is not empty stays, and so do its parents.
 void remove_empty_folders(fs::path folder, const fs::path& top) {
   std::error_code ignored;
   for (; !top.empty(); folder = folder.parent_path()) {
@@ -68,7 +68,8 @@ void remove_empty_folders(fs::path folder, const fs::path& top) {
   }
 }
 
-/// A name that is too long for its file system would show only when all is computed.
+/// Rejects a name that is too long for its file system now; otherwise it would fail only after all work is
+/// done.
 void check_name_length(const fs::path& existing_folder, const fs::path& destination) {
   const long most = pathconf(existing_folder.c_str(), _PC_NAME_MAX);
   if (most > 0 && destination.filename().string().size() > static_cast<std::size_t>(most))
@@ -79,7 +80,7 @@ fs::path parent_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-/// Device and inode; nothing where there is no file.
+/// Device and inode of a file; empty if there is no file.
 std::optional<std::pair<std::uint64_t, std::uint64_t>> identity_of(const fs::path& path) {
   struct stat status {};
   if (stat(path.c_str(), &status) != 0) return std::nullopt;
@@ -113,7 +114,7 @@ void InputGuard::check(const fs::path& destination) const {
 StagedFolder::StagedFolder(fs::path folder, InputGuard inputs, const std::vector<std::string>& results,
                            FormerRecord record)
     : folder_(std::move(folder)), inputs_(std::move(inputs)), record_(std::move(record)) {
-  if (!folder_.has_filename()) folder_ = folder_.parent_path();  // "out/" is "out"
+  if (!folder_.has_filename()) folder_ = folder_.parent_path();  // treats "out/" as "out"
   for (const std::string& name : results) inputs_.check(folder_ / name);
   std::error_code failure;
   const fs::file_status status = fs::status(folder_, failure);
@@ -130,7 +131,7 @@ StagedFolder::StagedFolder(fs::path folder, InputGuard inputs, const std::vector
   }
   try {
     if (is_new_ && failure) throw output_error(folder_, failure.message());
-    // A name that is too long shows only now, where its parent is.
+    // A name that is too long is detected only now that its parent exists.
     if (fs::status(folder_, failure).type() == fs::file_type::none)
       throw output_error(folder_, failure.message());
     for (const std::string& name : results) check_name_length(is_new_ ? parent : folder_, folder_ / name);
@@ -169,7 +170,7 @@ void StagedFolder::leave_out(const std::string& name) {
 
 void StagedFolder::put_in_place() {
   if (is_new_ && staging_->become(folder_)) return;
-  // Files of the folder that was there, or that another process has made meanwhile.
+  // The folder existed before, or another process has made it meanwhile: files are renamed one by one.
   for (const std::string& name : names_) rename_into_place(staging_->path() / name, final_path(name));
 }
 
@@ -179,7 +180,7 @@ std::vector<FileRecord> StagedFolder::written() const {
   return records;
 }
 
-/// Only what is as it was recorded: another file under that name is not ours.
+/// Removes only files that are as recorded; a different file with that name is not ours.
 std::vector<std::string> StagedFolder::remove_former() {
   std::vector<std::string> removed;
   for (const FileRecord& file : former_) {
@@ -194,8 +195,8 @@ std::vector<std::string> StagedFolder::remove_former() {
 }
 
 std::vector<std::string> StagedFolder::commit() {
-  // All that can fail for want of space or by a folder in the way fails here, before the first file is
-  // replaced.
+  // Everything that can fail for lack of space or because of a folder in the way fails here, before the first
+  // file is replaced.
   for (const std::string& name : names_) {
     sync_to_disk(staging_->path() / name, final_path(name));
     check_replaceable(final_path(name));

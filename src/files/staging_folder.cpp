@@ -24,10 +24,11 @@ constexpr const char* kMarker = ".heightlight-staging";
 
 constexpr const char* kResults = "results";
 
-/// Sticky while it is empty: a name alone would not tell it from a folder of somebody's.
+/// The sticky bit marks the folder while it is empty; the name alone would not distinguish it from other
+/// folders.
 constexpr mode_t kStagingMode = 0777 | S_ISVTX;
 
-/// What the hidden folder holds first, its mark last.
+/// Removes the content of the hidden folder, with the marker file last.
 void remove_staging(const fs::path& folder) {
   std::error_code ignored;
   for (fs::directory_iterator entry(folder, ignored), end; entry != end; entry.increment(ignored)) {
@@ -37,10 +38,11 @@ void remove_staging(const fs::path& folder) {
   rmdir(folder.c_str());
 }
 
-/// Those of this process. Never destroyed: the end of the process needs them.
+/// The staging folders of this process. Never destroyed, because the end of the process needs them.
 struct Staged {
-  std::recursive_mutex mutex;            ///< recursive: errors found while it is held ask for final paths
-  std::map<fs::path, fs::path> folders;  ///< of results, and where what they hold is to stand
+  std::recursive_mutex mutex;  ///< recursive, because errors found while it is held ask for final paths
+  /// from a folder of results to the folder where its content is to stand
+  std::map<fs::path, fs::path> folders;
 };
 
 void remove_all_staged(const Staged& staged) {
@@ -69,7 +71,7 @@ int open_folder(const fs::path& folder) {
   return open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
 }
 
-/// What only this program writes, and into staging folders alone.
+/// Writes the marker file, which only this program writes, and only into staging folders.
 bool write_marker(int folder) {
   const int marker = openat(folder, kMarker, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (marker < 0) return false;
@@ -77,7 +79,7 @@ bool write_marker(int folder) {
   return true;
 }
 
-/// A staging folder is marked from its first file to its last. Empty, it is sticky.
+/// Whether a folder is a staging folder: it contains the marker file, or is empty and has the sticky bit.
 bool is_marked(int folder, const fs::path& path) {
   struct stat status {};
   if (fstatat(folder, kMarker, &status, AT_SYMLINK_NOFOLLOW) == 0) return S_ISREG(status.st_mode);
@@ -85,7 +87,7 @@ bool is_marked(int folder, const fs::path& path) {
   return fstat(folder, &status) == 0 && (status.st_mode & S_ISVTX) != 0 && fs::is_empty(path, failure);
 }
 
-/// Takes the lock of a folder just made; false where another process removed it in between.
+/// Takes the lock of a folder that was just made; false if another process removed the folder in between.
 bool lock_new_folder(int descriptor, const fs::path& folder) {
   if (flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return false;
   struct stat opened {};
@@ -126,7 +128,7 @@ StagingFolder::StagingFolder(const fs::path& parent, const fs::path& folder, con
     if (descriptor_ >= 0) close(descriptor_);
     descriptor_ = -1;
     rmdir(candidate.c_str());
-    if (fault != 0) break;  // else another process took it for left behind
+    if (fault != 0) break;  // otherwise another process took it for left behind; try the next name
   }
   throw output_error(result, fault);
 }
@@ -148,7 +150,7 @@ void remove_left_behind(const fs::path& parent) {
     if (!is_staging_name(entry->path().filename().string())) continue;
     const int descriptor = open_folder(entry->path());
     if (descriptor < 0) continue;
-    // The lock first: a process that has just begun may not have marked its folder yet.
+    // The lock is taken first, because a process that has just begun may not have marked its folder yet.
     if (flock(descriptor, LOCK_EX | LOCK_NB) == 0 && is_marked(descriptor, entry->path()))
       remove_staging(entry->path());
     close(descriptor);
@@ -164,7 +166,7 @@ fs::path final_path(const fs::path& path) {
 std::unique_lock<std::recursive_mutex> hold_off_end() { return std::unique_lock(staged_here().mutex); }
 
 void end_without_staging(int exit_code) {
-  staged_here().mutex.lock();  // and never unlocked: nothing is put in place any more
+  staged_here().mutex.lock();  // never unlocked: nothing is put in place any more
   remove_all_staged(staged_here());
   _exit(exit_code);
 }

@@ -5,16 +5,17 @@
 
 namespace heightlight {
 
-/// A folder in which results wait until they are whole, inside a hidden one, `.heightlight-PID-N`. It goes
-/// away with this object, or with the process where that exits without unwinding. What a killed process left
-/// is removed by the next that stages in the same place: a file in the hidden folder, `.heightlight-staging`,
-/// tells it from folders of other people's that are called alike, and a lock, which ends with its process,
-/// from those in use. The file comes first and goes last, and results never lie beside it, so that a kill at
-/// any moment leaves either whole results or what the next can tell and remove.
+/// A folder in which results wait until they are complete, inside a hidden folder, `.heightlight-PID-N`. It
+/// is removed with this object, or when the process exits without unwinding. Folders left by a killed process
+/// are removed by the next process that stages in the same parent. The hidden folder contains a file
+/// `.heightlight-staging`, which distinguishes it from folders of other origin with a similar name; a lock,
+/// which ends with its process, distinguishes folders in use. That file is created first and removed last,
+/// and results never lie beside it. Hence a kill at any moment leaves either complete results or something
+/// that the next process recognises and removes.
 class StagingFolder {
  public:
-  /// In `parent`, which exists; what it holds is to stand in `folder`. Throws OutputError, naming `result`,
-  /// when it cannot be made there.
+  /// Makes a staging folder in `parent`, which must exist; its content is to stand in `folder` later. Throws
+  /// OutputError naming `result` when the folder cannot be made.
   StagingFolder(const std::filesystem::path& parent, const std::filesystem::path& folder,
                 const std::filesystem::path& result);
   ~StagingFolder();
@@ -24,28 +25,28 @@ class StagingFolder {
   /// Where results wait.
   const std::filesystem::path& path() const { return results_; }
 
-  /// The results become `destination`, on the same file system, at one stroke; false where something stands
-  /// there that is no empty folder.
+  /// Renames the folder of results to `destination`, on the same file system, in one step. Returns false
+  /// where something other than an empty folder stands there.
   bool become(const std::filesystem::path& destination);
 
  private:
   std::filesystem::path path_;  ///< the hidden folder
   std::filesystem::path results_;
-  int descriptor_ = -1;  ///< of the hidden folder; holds the lock
+  int descriptor_ = -1;  ///< open hidden folder; holds the lock
 };
 
-/// Removes the staging folders in `parent` whose processes are no more. Where locks are unknown, as on some
-/// network file systems, nothing is taken for left behind. Folders are told by what they hold, never by name
-/// alone. What cannot be removed stays, without an error.
+/// Removes the staging folders in `parent` whose processes have ended. Where the file system does not support
+/// locks, as on some network file systems, no folder is considered left behind. Folders are recognised by
+/// their content, never by name alone. What cannot be removed stays, without an error.
 void remove_left_behind(const std::filesystem::path& parent);
 
-/// Where a file that is on its way will stand, for messages; any other path as it is.
+/// Where a staged file will stand, for messages; any other path is returned unchanged.
 std::filesystem::path final_path(const std::filesystem::path& path);
 
-/// Held while results are put in place, so that a late end (see note_interrupts) does not come in between.
+/// Held while results are put in place, so that a late end (see note_interrupts) does not interrupt that.
 std::unique_lock<std::recursive_mutex> hold_off_end();
 
-/// Removes the staging folders of this process and ends it at once.
+/// Removes the staging folders of this process and ends the process at once.
 [[noreturn]] void end_without_staging(int exit_code);
 
 }  // namespace heightlight

@@ -44,7 +44,7 @@ StoredHeights read_grid(const InputFile& file, const LoadOptions& options, const
   return stored;
 }
 
-/// What is no picture and no text: samples one after the other.
+/// Reads a file of samples stored one after the other, which is neither a picture nor text.
 StoredHeights read_sample_file(const InputFile& file, FileFormat format, const LoadOptions& options,
                                const ReadLimit& limit) {
   if (options.part) throw UsageError(file.path().string() + ": has no parts; only EXR files have");
@@ -74,7 +74,8 @@ StoredHeights read_sample_file(const InputFile& file, FileFormat format, const L
   return stored;
 }
 
-/// Integers without a unit are stretched; those of a digital elevation model are metres.
+/// Whether integer samples are elevations in metres, as in a digital elevation model; others have no unit and
+/// are stretched to a relief.
 bool is_elevation(const StoredImage& image, const LoadOptions& options) {
   if (!image.tiff) return false;
   const bool is_signed = image.sample_type.starts_with("int");
@@ -90,7 +91,7 @@ void take_no_data_tag(StoredHeights& stored) {
                              "', which is no number; no sample was taken for missing by it"});
 }
 
-/// GDAL's metadata may say what height a stored value is; its mask, what is missing.
+/// Takes scale and offset from GDAL's metadata, and warns of a mask of missing samples.
 void take_metadata(const InputFile& file, const LoadOptions& options, StoredHeights& stored) {
   const TiffFacts& tiff = *stored.tiff;
   if (tiff.has_mask)
@@ -111,7 +112,7 @@ void take_metadata(const InputFile& file, const LoadOptions& options, StoredHeig
       {fmt::format("heights are {:g} times its samples, plus {:g}, as it says", scale, offset)});
 }
 
-/// All but the samples of an image and the name of the channel that they are.
+/// Everything about an image's heights except the samples and the name of their channel.
 StoredHeights describe_heights(const InputFile& file, const StoredImage& image, const LoadOptions& options) {
   StoredHeights stored;
   for (const std::string& warning : image.warnings) stored.warnings.push_back({warning});
@@ -144,7 +145,7 @@ StoredHeights read_picture(const InputFile& file, FileFormat format, const LoadO
   return stored;
 }
 
-/// Esri's software reads -9999 as missing where a grid's header names no other value.
+/// Esri's software treats -9999 as missing if a grid's header names no other value.
 void assume_esri_default(StoredHeights& stored) {
   constexpr double kEsriDefault = -9999;
   if (stored.facts.format != to_string(FileFormat::esri_grid) || stored.facts.declared_no_data) return;
@@ -157,7 +158,7 @@ void assume_esri_default(StoredHeights& stored) {
        " samples are -9999, which means missing where the header names no other value"});
 }
 
-/// Makes NaN of samples that are no numbers, and widens the range by the rest.
+/// Replaces samples that are not finite by NaN, and widens the range by the others.
 void note_range(Image<double>& values, SourceFacts& facts) {
   for (double& value : values.values) {
     if (!std::isfinite(value)) {
@@ -180,7 +181,7 @@ void empty_range(SourceFacts& facts) {
   facts.highest = -facts.lowest;
 }
 
-/// Makes NaN of what is missing, and notes range and levels of the rest.
+/// Replaces missing samples by NaN, and notes the range and the levels of the others.
 void drop_missing(const InputFile& file, const std::optional<double>& no_data, StoredHeights& stored) {
   SourceFacts& facts = stored.facts;
   drop_named(no_data, facts, stored.values);

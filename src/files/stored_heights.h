@@ -12,35 +12,35 @@
 
 namespace heightlight {
 
-/// A file's samples on their way to heights.
+/// A file's samples before they are converted to heights.
 struct StoredHeights {
   Image<double> values;  ///< NaN where missing
   SourceFacts facts;
-  double scale = 1;                   ///< height per stored value, as the file says it
+  double scale = 1;                   ///< height per stored value, as the file states it
   double offset = 0;                  ///< height of a stored 0
   std::optional<Georeference> place;  ///< where it lies on earth, as far as the file says it
-  std::string place_fault;            ///< why what it says of that cannot be used; empty: it can
-  std::optional<TiffFacts> tiff;      ///< of a TIFF
+  std::string place_fault;            ///< why the georeference cannot be used; empty if it can
+  std::optional<TiffFacts> tiff;      ///< of a TIFF only
   std::vector<Warning> warnings = {};
 };
 
-/// Reads them, and makes NaN of what is missing: what `options.no_data` or the file names, as the stored type
-/// sees it, transparent and infinite samples. Throws Error as load_heightmap does, UsageError for a part or
-/// channel that the file does not have.
+/// Reads the samples and makes NaN of missing ones: those equal to the no-data value of `options.no_data` or
+/// of the file, as the sample type stores it, and transparent and infinite samples. Throws Error as
+/// load_heightmap does, and UsageError for a part or channel that the file does not have.
 StoredHeights read_stored_heights(const InputFile& file, const LoadOptions& options, const ReadLimit& limit);
 
-/// The same of a TIFF, some rows at a time: what memory need not hold as a whole.
+/// As read_stored_heights, for a TIFF that need not be in memory as a whole: reads a few rows at a time.
 class StoredHeightRows {
  public:
-  /// Reads all rows once, for their range. Throws Error likewise, and for an image of several channels where
-  /// none is chosen. Both arguments must outlive it.
+  /// Reads all rows once, to find their range. Throws Error as read_stored_heights does, and for an image of
+  /// several channels if none is chosen. Both arguments must outlive this object.
   StoredHeightRows(const InputFile& file, const LoadOptions& options);
 
-  /// All but the values, which have their size alone, and their levels, which nobody counts.
+  /// Everything but the samples (only their size is set) and the levels, which are not counted.
   const StoredHeights& stored() const { return stored_; }
   StoredHeights& stored() { return stored_; }
 
-  /// Calls visit(first row, rows), one part after the other, from the top.
+  /// Calls visit(first row, rows) for one group of rows after the other, from the top.
   void for_rows(const std::function<void(int, Image<double>&)>& visit);
 
  private:

@@ -12,14 +12,15 @@
 namespace heightlight {
 namespace {
 
-/// What programs write for missing samples, beside the lowest and the highest float.
+/// Whether programs commonly write this value for missing samples. The lowest and the highest float are among
+/// these.
 bool is_usual(double value) {
   constexpr std::array kUsual{-32768.0, -32767.0, -9999.0, -99999.0, 9999.0, 99999.0, 32767.0};
   return std::find(kUsual.begin(), kUsual.end(), value) != kUsual.end() || std::abs(value) >= 1e9;
 }
 
-/// The outermost value on one side of a map, counted and placed, and the next that is not usual for missing
-/// samples, of which several kinds may stand beside each other.
+/// The outermost value on one side of a map, its count and position, and the next value that is not usual for
+/// missing samples. (Several such values may occur side by side.)
 struct Outermost {
   double value = 0;
   double next = 0;
@@ -27,7 +28,7 @@ struct Outermost {
   std::size_t first = 0;  ///< index of the first sample that has the value
 };
 
-/// `side` is 1 for the highest, −1 for the lowest. At least one sample is present.
+/// `side` is 1 for the highest value, −1 for the lowest. At least one sample must be present.
 Outermost find_outermost(const std::vector<double>& values, double side) {
   constexpr double kNothing = -std::numeric_limits<double>::infinity();
   Outermost found{.value = kNothing, .next = kNothing};
@@ -49,8 +50,8 @@ Outermost find_outermost(const std::vector<double>& values, double side) {
   return found;
 }
 
-/// Far: by more than the span of all that lies between, of values that are usual for missing ones; by ten
-/// times as much of any other.
+/// Whether a value is far from the others: by more than their span if it is usual for missing samples, by
+/// more than ten times their span if it is any other value.
 bool is_far(const Outermost& one, double span) {
   constexpr double kMuch = 10;
   const double gap = std::abs(one.value - one.next);
@@ -59,7 +60,7 @@ bool is_far(const Outermost& one, double span) {
   return span > 0 && gap > kMuch * span;
 }
 
-/// Digits that read back as the stored value, whatever type that is.
+/// Decimal digits from which the stored value can be read back, whatever its type.
 std::string digits_of(double value, const std::string& sample_type) {
   if (sample_type == "float" || sample_type == "half") return in_digits(static_cast<float>(value));
   return in_digits(value);

@@ -6,13 +6,13 @@
 
 namespace heightlight {
 
-/// Whether a file is terrain, and no material: whether it tells the distance between its samples. Esri grids
-/// do, SRTM tiles whose name has a place, and TIFFs with a pixel scale. Looks at no samples; false for a file
-/// that cannot be read.
+/// Whether a file is terrain rather than a material, that is, whether it states the distance between its
+/// samples. Esri grids do, SRTM tiles whose name gives a position, and TIFFs with a pixel scale. Reads no
+/// samples; false for a file that cannot be read.
 bool is_terrain_file(const std::filesystem::path& path);
 
-/// The same of a file as it is loaded: what it tells a place of, or the user a spacing and that nothing lies
-/// beyond it.
+/// Whether a file, loaded with these options, is terrain: is_terrain_file holds and the boundary is not set
+/// to `tile`, or the user gives a texel and the boundary `open`.
 bool is_loaded_as_terrain(const LoadOptions& load, const std::filesystem::path& path);
 
 }  // namespace heightlight

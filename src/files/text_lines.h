@@ -11,13 +11,14 @@
 
 namespace heightlight {
 
-/// Lines of a text file one after the other, none of which is long: what is no such file is found at once.
+/// Reads the lines of a text file one after the other. Long lines are an error, so that a file that is not
+/// text is rejected early.
 class LineReader {
  public:
   explicit LineReader(const InputFile& file) : file_(file), stream_(file.rewound()) {}
 
-  /// Without its end; a byte-order mark before the first is left out. Nothing at the end of the file. Throws
-  /// Error naming the file and the line.
+  /// The next line without its end; a byte-order mark before the first line is dropped. Empty at the end of
+  /// the file. Throws Error naming the file and the line.
   std::optional<std::string_view> next() {
     if (!std::fgets(buffer_.data(), static_cast<int>(buffer_.size()), stream_)) {
       if (std::ferror(stream_)) throw file_.error("cannot be read to its end");

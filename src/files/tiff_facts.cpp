@@ -23,7 +23,8 @@ struct CloseTiff {
 };
 using Tiff = std::unique_ptr<TIFF, CloseTiff>;
 
-/// libtiff's own words are for its developers. What it could not read, the reader of samples says.
+/// Suppresses libtiff's messages, which are meant for developers. The reader of samples reports what could
+/// not be read.
 int say_nothing(TIFF*, void*, const char*, const char*, va_list) { return 1; }
 
 Tiff open_tiff(const InputFile& file) {
@@ -31,13 +32,13 @@ Tiff open_tiff(const InputFile& file) {
                                                                                  TIFFOpenOptionsFree);
   TIFFOpenOptionsSetErrorHandlerExtR(options.get(), say_nothing, nullptr);
   TIFFOpenOptionsSetWarningHandlerExtR(options.get(), say_nothing, nullptr);
-  // No mapping: a file that is cut short while it is mapped ends the process.
+  // Without memory mapping: a file that is truncated while it is mapped crashes the process.
   Tiff tiff(TIFFOpenExt(file.name_for_libraries().c_str(), "rm", options.get()));
   if (!tiff) throw file.error("cannot be read as tiff: its directory is damaged or truncated");
   return tiff;
 }
 
-/// The tags that say where a raster lies, in rising order.
+/// The tags that describe the georeference, in rising order.
 constexpr std::uint16_t kPlaceTags[] = {kPixelScaleTag,   kTiePointTag,         kTransformationTag,
                                         kKeyDirectoryTag, kDoubleParametersTag, kTextParametersTag,
                                         kGdalMetadataTag, kGdalNoDataTag};
@@ -46,9 +47,9 @@ std::size_t bytes_of_type(TIFFDataType type) {
   return type == TIFF_DOUBLE ? sizeof(double) : type == TIFF_SHORT ? sizeof(std::uint16_t) : 1;
 }
 
-/// A tag that libtiff does not know by name, and hands out with a count of 32 bits. A program around this one
-/// may have taught it otherwise, as GDAL does: with a count of 16 bits, or of texts, none. Nothing where the
-/// tag is absent; no bytes where its type is one that no tag of a place has.
+/// Reads a tag that libtiff does not know by name, for which it returns a count of 32 bits. A host program
+/// may have registered the tag otherwise, as GDAL does: with a count of 16 bits, or for texts without a
+/// count. Empty if the tag is absent; a tag without bytes if its type is one that no georeference tag has.
 std::optional<GeoTag> read_tag(TIFF* tiff, std::uint16_t number) {
   const TIFFField* field = TIFFFindField(tiff, number, TIFF_ANY);
   if (!field) return std::nullopt;
@@ -73,7 +74,7 @@ std::optional<GeoTag> read_tag(TIFF* tiff, std::uint16_t number) {
   return tag;
 }
 
-/// Whether one of the directories that follow the first is a mask; overviews stand among them.
+/// Whether one of the directories after the first is a mask; overviews are among these directories.
 bool has_mask(TIFF* tiff) {
   constexpr int kMost = 64;
   for (int i = 0; i < kMost && TIFFReadDirectory(tiff) != 0; ++i) {
@@ -84,7 +85,7 @@ bool has_mask(TIFF* tiff) {
   return false;
 }
 
-/// A zlib stream, inflated as its pieces come and dropped.
+/// Inflates a zlib stream piece by piece and discards the result.
 class DroppedStream {
  public:
   DroppedStream() {
@@ -104,7 +105,7 @@ class DroppedStream {
     }
   }
 
-  /// Down to its Adler-32.
+  /// Inflates the rest; true if the stream is complete down to its Adler-32 checksum.
   bool is_whole() {
     while (result_ == Z_OK) {
       state_.next_out = dropped_.data();
@@ -170,12 +171,12 @@ void check_tiff_blocks(const InputFile& file) {
   const std::uint32_t blocks = tiled ? TIFFNumberOfTiles(tiff.get()) : TIFFNumberOfStrips(tiff.get());
   const auto whole = static_cast<std::uint64_t>(tiled ? TIFFTileSize(tiff.get()) : TIFFStripSize(tiff.get()));
   constexpr std::uint64_t kBlockSlack =
-      1 << 16;  // no compression makes more than twice as much of what it gets
+      1 << 16;  // a compressed block is at most twice as large as its content
   for (std::uint32_t block = 0; block < blocks; ++block) {
     throw_if_interrupted();
     const std::uint64_t begin = TIFFGetStrileOffset(tiff.get(), block);
     const std::uint64_t bytes = TIFFGetStrileByteCount(tiff.get(), block);
-    if (bytes == 0) continue;  // a block that was left out: all zeros
+    if (bytes == 0) continue;  // an omitted block: all zeros
     if (begin > file.size() || bytes > file.size() - begin)
       throw file.error("is damaged or truncated: a block ends beyond the file");
     if (bytes > 2 * whole + kBlockSlack) throw file.error("is damaged: a block is larger than what it holds");

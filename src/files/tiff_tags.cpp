@@ -7,7 +7,7 @@
 namespace heightlight {
 namespace {
 
-/// Of a tag that takes any number of values of that type.
+/// Describes a tag that takes any number of values of a type.
 TIFFFieldInfo field(std::uint16_t number, TIFFDataType type, const char* name) {
   return {number, TIFF_VARIABLE2, TIFF_VARIABLE2, type, FIELD_CUSTOM, 1, 1, const_cast<char*>(name)};
 }
@@ -39,7 +39,7 @@ void set_samples(TIFF* tiff, const TextureLayout& layout) {
   TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, bits);
   TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, channels);
   TIFFSetField(tiff, TIFFTAG_SAMPLEFORMAT, is_float ? SAMPLEFORMAT_IEEEFP : SAMPLEFORMAT_UINT);
-  // Bands of a map are no colours, whatever their number.
+  // Bands of a georeferenced map are not colours, whatever their number.
   const bool is_colour = !layout.place && (channels == 3 || channels == 4);
   TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, is_colour ? PHOTOMETRIC_RGB : PHOTOMETRIC_MINISBLACK);
   const int extra = channels - (is_colour ? 3 : 1);
@@ -47,12 +47,12 @@ void set_samples(TIFF* tiff, const TextureLayout& layout) {
   if (extra > 0) TIFFSetField(tiff, TIFFTAG_EXTRASAMPLES, extra, kinds.data());
   TIFFSetField(tiff, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
   TIFFSetField(tiff, TIFFTAG_COMPRESSION, COMPRESSION_ADOBE_DEFLATE);
-  if (layout.type != SampleType::half)  // whose differences libtiff does not make
+  if (layout.type != SampleType::half)  // libtiff has no predictor for half
     TIFFSetField(tiff, TIFFTAG_PREDICTOR, is_float ? PREDICTOR_FLOATINGPOINT : PREDICTOR_HORIZONTAL);
 }
 
-/// Tags come with the number of their values, not of their bytes; texts without one, where a program around
-/// this one has taught libtiff so.
+/// Sets a tag. libtiff takes the number of values, not of bytes; for texts it takes none if a host program
+/// registered the tag so.
 void set_place_tag(TIFF* tiff, const GeoTag& tag) {
   const TIFFField* field = TIFFFindField(tiff, tag.number, TIFF_ANY);
   if (field && !TIFFFieldPassCount(field)) {

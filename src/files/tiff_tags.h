@@ -9,13 +9,14 @@
 
 namespace heightlight {
 
-/// The tags of one image of a TIFF: the map itself, or one of its overviews, which is smaller.
+/// Sets the tags of one image of a TIFF: the map itself (`factor` 1), or an overview, which is smaller by
+/// `factor`.
 void set_tiff_tags(TIFF* tiff, const TextureLayout& layout, int factor);
 
-/// Makes libtiff know the tags of a place, which it then takes as they are.
+/// Registers the georeference tags with libtiff, which then passes them on unchanged.
 void know_place_tags(TIFF* tiff);
 
-/// GDAL's text on bands: descriptions and units (its tag 42112); empty where there are none.
+/// GDAL's metadata text with the descriptions and units of bands (its tag 42112); empty where there are none.
 std::string band_metadata(const std::vector<BandText>& bands);
 
 }  // namespace heightlight

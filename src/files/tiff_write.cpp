@@ -17,7 +17,7 @@
 namespace heightlight {
 namespace {
 
-// What libtiff does with a file, done with a stream.
+// The file operations that libtiff needs, implemented on a stream.
 std::FILE* stream_of(thandle_t handle) { return static_cast<std::FILE*>(handle); }
 
 tmsize_t read_stream(thandle_t handle, void* bytes, tmsize_t count) {
@@ -92,7 +92,7 @@ std::size_t bytes_of_sample(SampleType type) {
   return type == SampleType::uint8 ? 1 : type == SampleType::real ? 4 : 2;
 }
 
-/// Whether offsets of 32 bits may not do: what is not compressed at all, and its overviews.
+/// Whether 32-bit offsets may not suffice: assumes uncompressed samples, with overviews.
 bool is_big(const TextureLayout& layout) {
   const double samples =
       double{1} * layout.width * layout.height * static_cast<double>(layout.channels.size());
@@ -100,7 +100,8 @@ bool is_big(const TextureLayout& layout) {
   return samples * 4 / 3 * static_cast<double>(bytes_of_sample(layout.type)) > kLargest;
 }
 
-/// Rows of an overview: means of factor × factor samples, of those that are there; whole levels of integers.
+/// Rows of an overview: means of the present samples among factor × factor; rounded to whole levels for
+/// integers.
 class ReducedRows {
  public:
   ReducedRows(const TextureLayout& layout, const FillRows& fill, int factor)
@@ -158,7 +159,8 @@ class ReducedRows {
   std::vector<float> full_;
 };
 
-/// One image of the file, tile by tile; beyond the map, tiles hold zeros. False where libtiff fails.
+/// Writes one image of the file, tile by tile; tiles are filled with zeros beyond the map. False if libtiff
+/// fails.
 bool write_tiles(TIFF* tiff, const TextureLayout& layout, ReducedRows& rows) {
   const std::size_t channels = layout.channels.size();
   const auto width = static_cast<std::size_t>(rows.width());
@@ -189,7 +191,7 @@ bool write_tiles(TIFF* tiff, const TextureLayout& layout, ReducedRows& rows) {
   return TIFFWriteDirectory(tiff) != 0;
 }
 
-/// 1, and 2, 4 … for the overviews of a place's raster.
+/// The factor 1, and 2, 4 … for the overviews of a georeferenced map.
 std::vector<int> factors_of(const TextureLayout& layout) {
   std::vector<int> factors{1};
   const int side = std::max(layout.width, layout.height);
@@ -215,7 +217,7 @@ void write_tiff(const std::filesystem::path& path, const TextureLayout& layout, 
         written = written && write_tiles(tiff.get(), layout, rows);
       }
     }
-    // A failed stream explains itself better (no space left) than the library that met it.
+    // The error of a failed stream (no space left) is clearer than the library's message.
     if (!std::ferror(stream) && (!written || !fault.empty())) throw output_error(path, fault);
   });
 }

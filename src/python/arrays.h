@@ -10,11 +10,11 @@ namespace heightlight {
 
 namespace py = pybind11;
 
-/// What Python gives as numbers: converted where it has another type or layout, else read where it lies.
+/// An array argument from Python. It is converted where its type or layout differs, else read in place.
 template <class T>
 using Array = py::array_t<T, py::array::c_style | py::array::forcecast>;
 
-/// An array that owns what the vector held, without a copy.
+/// An array that takes over the vector's content without a copy.
 template <class T>
 py::array_t<T> take_array(std::vector<T> values, std::vector<py::ssize_t> shape) {
   auto* kept = new std::vector<T>(std::move(values));
@@ -22,21 +22,21 @@ py::array_t<T> take_array(std::vector<T> values, std::vector<py::ssize_t> shape)
   return py::array_t<T>(std::move(shape), kept->data(), owner);
 }
 
-/// (height, width) of float32.
+/// A NumPy array (height, width) of float32.
 inline py::array_t<float> take_map(Map map) {
   return take_array(std::move(map.values), {map.height, map.width});
 }
 
-/// (height, width, 3) of float32.
+/// A NumPy array (height, width, 3) of float32.
 py::array_t<float> take_vectors(const Image<Vector3>& vectors);
 
-/// (height, width) of float64; NaN where `present` is NaN.
+/// A NumPy array (height, width) of float64; NaN where `present` is NaN.
 py::array_t<double> take_texels(TexelVector values, const Map& present);
 
-/// Throws UsageError, naming the quantity, unless the array has that shape.
+/// Throws UsageError, naming the quantity, unless the array has the shape (height, width).
 void check_shape(const py::array& array, const std::string& quantity, int height, int width);
 
-/// Texel by texel, NaN as 0.
+/// The values texel by texel, with NaN replaced by 0.
 TexelVector read_texels(const Array<double>& array);
 
 }  // namespace heightlight

@@ -77,7 +77,7 @@ BakeOptions read_bake_options(const std::vector<std::string>& maps, const py::di
 
 namespace {
 
-/// A material that was found, and may be written.
+/// A baked material, whose maps can be read and written.
 class Bake {
  public:
   Bake(SharedSurface surface, const Settings& settings, BakeOptions options)
@@ -94,7 +94,7 @@ class Bake {
   Bake(const Bake&) = delete;
   Bake& operator=(const Bake&) = delete;
 
-  /// (height, width), or (height, width, channels) where there are more than one.
+  /// The map as an array (height, width), or (height, width, channels) if there are several channels.
   py::array_t<float> map(const std::string& name) const {
     const MaterialMap wanted = map_named(name);
     if (!is_wanted(options_, wanted)) throw UsageError("maps", "", "'" + name + "' was not asked for");
@@ -115,7 +115,7 @@ class Bake {
     return take_array(std::move(values), std::move(shape));
   }
 
-  /// Writes the maps as the command does; names of the files.
+  /// Writes the maps as the command does; returns the names of the files.
   std::vector<std::string> save(const std::filesystem::path& folder, const std::string& name,
                                 const std::string& format, const std::string& depth) const {
     BakeOptions options = options_;

@@ -11,47 +11,48 @@
 #include "heightlight/files.h"
 #include "heightlight/solve.h"
 
-// What the module heightlight._native offers to the package around it, which is written in Python. Functions
-// take and give plain arrays; names, defaults and documentation are the package's.
+// What the module heightlight._native offers to the Python package around it. Functions take and return plain
+// arrays; names, defaults and documentation belong to the package.
 
 namespace heightlight {
 
 namespace py = pybind11;
 
-/// How everything is found, as Python says it.
+/// Accuracy and limits, as Python passes them.
 struct Settings {
-  double error = 0.002;  ///< 0: exact slices
+  double error = 0.002;  ///< RMSE wanted; 0: exact slices
   int azimuths = 0;
-  int rays = 0;  ///< > 0: by rays
+  int rays = 0;  ///< rays per texel; 0: horizon walks
   std::uint64_t seed = 1;
   int threads = 0;
-  std::uint64_t memory = 0;  ///< bytes beside what the process holds; 0: default_memory
+  std::uint64_t memory = 0;  ///< bytes beyond what the process already holds; 0: default_memory
   py::object progress = py::none();
 };
 
-/// Accuracy and limits of a request. Throws UsageError for a quantity out of its range.
+/// Converts the settings to a request. Throws UsageError for a quantity out of its range.
 Request make_request(const Settings& settings);
 
-/// Evidence as the text of JSON.
+/// Evidence as JSON text.
 std::string evidence_text(const Evidence& evidence);
 
-/// How a file becomes heights, as heightlight.read says it.
+/// Converts the options of heightlight.read.
 LoadOptions read_load_options(const py::dict& options);
 
-/// What is baked, as heightlight.bake says it; its files' format is as it was. Throws UsageError.
+/// Converts the arguments of heightlight.bake; the format of files is left at its default. Throws UsageError.
 BakeOptions read_bake_options(const std::vector<std::string>& maps, const py::dict& choice,
                               const Settings& settings);
 
-/// The map of that name. Throws UsageError.
+/// The map with that name. Throws UsageError.
 MaterialMap map_named(const std::string& name);
 
-/// "png", "exr" or "tif"; "8", "16", "half", "float", or as the format has it where empty. Throws UsageError.
+/// Sets the format of files: "png", "exr" or "tif", and the depth: "8", "16", "half", "float", or empty for
+/// the format's default. Throws UsageError.
 void set_format(const std::string& format, const std::string& depth, BakeOptions& options);
 
 /// A surface that Python and operators share.
 using SharedSurface = std::shared_ptr<const Surface>;
 
-// Each adds its part to the module.
+// Each of these functions adds its part to the module.
 void add_surface(py::module_& module);
 void add_sky(py::module_& module);
 void add_light(py::module_& module);

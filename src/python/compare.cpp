@@ -50,7 +50,7 @@ py::list describe_answer(const Answer& answer) {
   return lines;
 }
 
-/// One number each, by the names that quantities have.
+/// Albedos as single numbers, named as the quantities are.
 std::vector<ComparedAlbedo> read_albedos(const std::vector<double>& albedos, const Surface& surface) {
   std::vector<ComparedAlbedo> compared;
   for (const double albedo : albedos) {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kTail = -1;
 
-/// A row's spread of one bounce.
+/// Columns with the statistics of one bounce in a bin.
 constexpr std::array kStatistics{
     std::pair{"mean", &BounceStatistics::mean}, std::pair{"stddev", &BounceStatistics::stddev},
     std::pair{"p05", &BounceStatistics::p05}, std::pair{"p50", &BounceStatistics::p50},
@@ -18,7 +18,7 @@ constexpr std::array kStatistics{
 constexpr std::array kBinEdges{std::pair{"ao_lo", &CurveBin::ao_lo}, std::pair{"ao_hi", &CurveBin::ao_hi},
                                std::pair{"ao_mean", &CurveBin::ao_mean}};
 
-/// Calls visit(bin, bounce, statistics) row by row.
+/// Calls visit(bin, bounce, statistics) for each row.
 template <class Visit>
 void for_rows(const BounceCurves& curves, Visit&& visit) {
   for (const CurveBin& bin : curves.filled) {
@@ -37,7 +37,7 @@ py::array_t<T> column(const BounceCurves& curves, Value&& value) {
   return take_array(std::move(values), {count});
 }
 
-/// A column of a table, of as many rows as the others.
+/// A column of a table; it must have `rows` values. Throws UsageError.
 template <class T>
 Array<T> read_column(const py::dict& table, const char* name, py::ssize_t rows) {
   if (!table.contains(name)) throw UsageError("curves", "", std::string("have no column ") + name);
@@ -56,7 +56,7 @@ py::dict curve_table(const BounceCurves& curves) {
   table["bin"] = column<std::int64_t>(curves, [](const CurveBin& bin, int, auto&) { return bin.bin; });
   table["count"] = column<std::int64_t>(curves, [](const CurveBin& bin, int, auto&) { return bin.count; });
   table["bounce"] = column<std::int64_t>(curves, [](auto&, int bounce, auto&) { return bounce; });
-  for (const auto& edge : kBinEdges) {  // Clang 14 captures no bindings
+  for (const auto& edge : kBinEdges) {  // Clang 14 cannot capture structured bindings
     table[edge.first] =
         column<double>(curves, [&](const CurveBin& bin, int, auto&) { return bin.*edge.second; });
   }

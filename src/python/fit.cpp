@@ -10,7 +10,7 @@
 namespace heightlight {
 namespace {
 
-/// A map as Python tells of it: name, material, its curves over α and A, and s and n's mean where known.
+/// Converts a map from Python: name, material, curves over α and A, and s and the mean of n if known.
 JudgedMap read_map(const py::dict& told) {
   JudgedMap map;
   map.name = told["name"].cast<std::string>();

@@ -13,7 +13,7 @@
 namespace heightlight {
 namespace {
 
-/// What a form is a function of, by the names that Python has for it.
+/// The inputs of a form, by their names in Python.
 std::vector<std::string> inputs_of(AoKind kind, ExtraInput extra, bool both_kinds) {
   std::vector<std::string> inputs;
   if (kind == AoKind::ambient_occlusion || both_kinds) inputs.emplace_back("alpha");
@@ -37,7 +37,7 @@ std::vector<std::string> inputs_of(AoKind kind, ExtraInput extra, bool both_kind
   return inputs;
 }
 
-/// Of the values that belong to one texel.
+/// The inputs of the i-th texel; 0 for inputs that are not given.
 ModelInputs read_inputs(const std::map<std::string, Array<double>>& values, py::ssize_t i) {
   const auto at = [&](const char* name) {
     const auto found = values.find(name);
@@ -51,7 +51,7 @@ ModelInputs read_inputs(const std::map<std::string, Array<double>>& values, py::
           .seen = SeenSkyViewFactor<double>(at("n"))};
 }
 
-/// Calls value(inputs, albedo) for each of the numbers, all arrays being of one length.
+/// Calls value(inputs, albedo) for each index; all arrays have the same length.
 template <class Value>
 py::array_t<double> for_each(const std::map<std::string, Array<double>>& values, const Array<double>& albedo,
                              Value&& value) {

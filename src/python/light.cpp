@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-/// E₀/π of the sun, whose azimuth counts clockwise from north, in degrees.
+/// E₀/π of the sun. Azimuth (clockwise from north), elevation and diameter are in degrees.
 py::array_t<double> find_sun(const Surface& surface, const Settings& settings, double azimuth,
                              double elevation, double diameter) {
   const Sun sun{.azimuth_rad = std::numbers::pi / 2 - azimuth * kDegree,
@@ -40,7 +40,7 @@ SkyLight read_radiance(const Array<float>& radiance) {
   return sky;
 }
 
-/// (E₀/π per channel, azimuths, RMSE) of an overcast sky, or of radiance.
+/// (E₀/π per channel, number of azimuths, RMSE) of the overcast sky, or of a sky given by its radiance.
 py::tuple find_sky_light(const Surface& surface, const Settings& settings,
                          const std::optional<Array<float>>& radiance) {
   const SkyLight sky = radiance ? read_radiance(*radiance) : overcast_sky();

@@ -34,15 +34,16 @@ std::string evidence_text(const Evidence& evidence) {
 
 namespace {
 
-/// At once, and not when something is found by them.
+/// Checks the settings at once, not only when they are first used.
 void check_settings(const Settings& settings) {
   const Request request = make_request(settings);
   if (settings.azimuths > 0) check_azimuths(settings.azimuths);
   if (settings.rays > 0) check_ray_options({.rays = request.accuracy.rays});
 }
 
-/// What heightlight throws, as Python knows it: ValueError for what makes no sense, MemoryError for what does
-/// not fit, OSError for files. Messages name quantities, which are called as arguments here are.
+/// Translates Heightlight's exceptions for Python: ValueError for arguments that make no sense, MemoryError
+/// for what does not fit in memory, OSError for files. Messages name quantities, which have the names of the
+/// Python arguments.
 void translate(
     std::exception_ptr thrown) {  // NOLINT(performance-unnecessary-value-param): pybind11 wants it so
   try {

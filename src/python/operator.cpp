@@ -14,7 +14,7 @@
 namespace heightlight {
 namespace {
 
-/// Bounces into curves, none of them kept.
+/// Makes curves from bounces without keeping the bounces.
 class CurveSink : public BounceSink {
  public:
   explicit CurveSink(int bins) : bins_(bins) {}
@@ -37,10 +37,11 @@ class CurveSink : public BounceSink {
   std::vector<CurveBuilder> builders_;
 };
 
-/// F of one surface, found once.
+/// The operator F of one surface, found once.
 class Operator {
  public:
-  /// Planned for direct irradiance of one's own, in channels, or for the sky's where there are none.
+  /// Plans for the user's own direct irradiance, one map per channel, or for that of an even sky if there is
+  /// none.
   Operator(SharedSurface surface, Settings settings, const std::vector<Array<double>>& direct)
       : surface_(std::move(surface)), settings_(std::move(settings)) {
     Request request = make_request(settings_);
@@ -56,7 +57,7 @@ class Operator {
   py::array_t<float> sky_view_factor() const { return take_map(present()); }
   py::array_t<float> ambient_occlusion() const { return take_map(found_.transport->ambient_occlusion); }
 
-  /// F x, 0 where the sample is missing.
+  /// F x; 0 where the sample is missing.
   py::array_t<double> gather(const Array<double>& values) const {
     check_shape(values, "irradiance", surface_->height(), surface_->width());
     const TexelVector texels = read_texels(values);
@@ -68,7 +69,7 @@ class Operator {
                       {surface_->height(), surface_->width()});
   }
 
-  /// (E₀ … E_K, the tail, evidence) at ρ = 1, E/π.
+  /// (bounces E₀ … E_K, tail, evidence), as E/π at ρ = 1.
   py::tuple bounces(int count) const {
     if (count < 1) throw UsageError("bounces", std::to_string(count), "must be from 1 to 1000");
     Request request = lent_request();
@@ -80,7 +81,7 @@ class Operator {
                           evidence_text(results.evidence));
   }
 
-  /// (E/π per channel, evidence). `varying`: arrays per channel, where `constant` is empty.
+  /// (E/π per channel, evidence). `varying` has an array per channel if `constant` is empty.
   py::tuple solve_total(const std::vector<double>& constant, const std::vector<Array<double>>& varying,
                         const std::vector<Array<double>>& direct) const {
     Request request = lent_request();
@@ -98,7 +99,7 @@ class Operator {
     return py::make_tuple(channels, evidence_text(results.evidence));
   }
 
-  /// E/π at each of some constant albedos, found together.
+  /// E/π at each of several constant albedos, found together.
   py::tuple totals(const std::vector<double>& albedos) const {
     Request request = lent_request();
     for (const double albedo : albedos) request.wanted.totals.push_back({.constant = {albedo}});
@@ -116,7 +117,7 @@ class Operator {
     return take_map(std::move(run(request).seen));
   }
 
-  /// Curves over α and over A, and s and the mean of n.
+  /// Curves over α and over A, s, and the mean of n.
   py::tuple curves(int bins, int bounces) const {
     if (bounces < 1) throw UsageError("bounces", std::to_string(bounces), "must be from 1 to 1000");
     if (bins < 1 || bins > 10000) throw UsageError("bins", std::to_string(bins), "must be from 1 to 10000");
@@ -131,7 +132,7 @@ class Operator {
   }
 
  private:
-  /// Maps per channel.
+  /// Converts one map per channel.
   std::vector<TexelVector> read_direct(const std::vector<Array<double>>& direct) const {
     std::vector<TexelVector> channels;
     for (const Array<double>& channel : direct) {

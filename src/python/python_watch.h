@@ -14,19 +14,20 @@ namespace heightlight {
 
 namespace py = pybind11;
 
-/// Long work as Python sees it: signals end it, and a function hears how far it is. The thread that makes it
-/// must be the one that the work is called from, which does its share of it: that thread asks Python for
-/// signals, ten times a second.
+/// Connects long work with Python: signals end the work, and a Python function hears of its progress. It must
+/// be constructed on the thread that calls the work and takes part in it. That thread asks Python for signals
+/// ten times a second.
 class PythonWatch {
  public:
-  /// `progress(name, done, total, ended)`, or None.
+  /// `progress` is a function (name, done, total, ended), or None.
   explicit PythonWatch(py::object progress);
   ~PythonWatch() { *self_ = nullptr; }
   PythonWatch(const PythonWatch&) = delete;
   PythonWatch& operator=(const PythonWatch&) = delete;
 
-  /// Calls work(watch) without Python's lock. An exception that Python raised meanwhile (KeyboardInterrupt,
-  /// or one of the function's own) comes out in place of Cancelled, and of a result that came all the same.
+  /// Calls work(watch) without holding Python's lock (GIL). An exception that Python raised meanwhile
+  /// (KeyboardInterrupt, or one from the progress function) is thrown instead of Cancelled, and also if the
+  /// work returned a result all the same.
   template <class Work>
   auto run(Work&& work) {
     try {
@@ -39,12 +40,13 @@ class PythonWatch {
     }
   }
 
-  /// For what is made in a call and outlives it, such as an operator: until this watch ends it is this one's,
-  /// and afterwards it asks the watch under which the thread works that asks.
+  /// A watch for an object that is made in a call and outlives it, such as an operator. While this
+  /// PythonWatch exists, the watch refers to it; afterwards to the PythonWatch under which the asking thread
+  /// is working.
   Watch for_longer();
 
  private:
-  /// Says whose watch this thread works under.
+  /// Registers the PythonWatch under which this thread works.
   class Caller {
    public:
     explicit Caller(PythonWatch& watch);
@@ -68,12 +70,13 @@ class PythonWatch {
 
   py::object progress_;
   std::thread::id caller_ = std::this_thread::get_id();
-  std::chrono::steady_clock::time_point asked_ = std::chrono::steady_clock::now();  ///< of the caller alone
-  std::chrono::steady_clock::time_point told_ = asked_;  ///< of whoever tells, one at a time
+  /// Time of the last look for signals; used by the caller's thread only.
+  std::chrono::steady_clock::time_point asked_ = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::time_point told_ = asked_;  ///< last report; used by one thread at a time
   std::atomic<bool> stopped_{false};
-  /// Where what outlives this watch finds it; null once it has ended.
+  /// Through this pointer, objects that outlive this watch find it; null once the watch has ended.
   std::shared_ptr<std::atomic<PythonWatch*>> self_ = std::make_shared<std::atomic<PythonWatch*>>(this);
-  py::object type_, value_, trace_;  ///< of what was raised first
+  py::object type_, value_, trace_;  ///< the first exception that was raised
 };
 
 }  // namespace heightlight

@@ -7,7 +7,7 @@
 namespace heightlight {
 namespace {
 
-/// (height, width, 5): of x² − y², xy, z², xz, yz.
+/// An array (height, width, 5) of the moments of x² − y², xy, z², xz, yz.
 py::array_t<float> take_second(const Image<std::array<float, 5>>& moments) {
   std::vector<float> values;
   values.reserve(5 * moments.size());
@@ -16,7 +16,7 @@ py::array_t<float> take_second(const Image<std::array<float, 5>>& moments) {
   return take_array(std::move(values), {moments.height, moments.width, 5});
 }
 
-/// (maps, height, width).
+/// An array (maps, height, width).
 py::array_t<float> take_maps(const std::vector<Map>& maps, const Surface& surface) {
   std::vector<float> values;
   values.reserve(maps.size() * surface.map.height.size());
@@ -25,7 +25,7 @@ py::array_t<float> take_maps(const std::vector<Map>& maps, const Surface& surfac
                     {static_cast<py::ssize_t>(maps.size()), surface.height(), surface.width()});
 }
 
-/// What is wanted of the sky.
+/// The parts of the sky that are wanted.
 struct SkyParts {
   bool shares = true;  ///< α and A
   bool moments = false;
@@ -33,7 +33,8 @@ struct SkyParts {
   std::vector<std::string> definitions = {};
 };
 
-/// How far occluders count, how they fade, and what lies below the horizontal: as Python hands it on.
+/// The maximum distance of occluders, their falloff, and what lies below the horizontal, as Python passes
+/// them.
 struct SkyLimits {
   std::optional<double> maximum_distance;
   std::string falloff;

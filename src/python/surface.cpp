@@ -13,7 +13,8 @@
 namespace heightlight {
 namespace {
 
-/// Above the lowest sample, in double precision, so that small relief on a large offset keeps its digits.
+/// Heights above the lowest sample, computed in double precision, so that a small relief on a large offset
+/// keeps its digits.
 template <class T>
 Heightmap read_heights(const Array<T>& heights) {
   if (heights.ndim() != 2)

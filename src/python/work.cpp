@@ -21,7 +21,8 @@
 namespace heightlight {
 namespace {
 
-/// What work() returns. A bake by windows knows their side as out_of_core, the package as window.
+/// Returns what work() returns. In errors, the side of a window is renamed from out_of_core, as the command
+/// calls it, to window, as the package does.
 template <class Call>
 auto with_names_of_arguments(Call&& work) {
   constexpr std::string_view kSide = "out_of_core";
@@ -33,10 +34,11 @@ auto with_names_of_arguments(Call&& work) {
   }
 }
 
-/// The work of this process on a bake by windows.
+/// This process's part in a bake by windows.
 class WorkShare {
  public:
-  /// `place`: map, load, side, folder, request, surface, format, depth, all as the package has them.
+  /// `place` has the entries map, load, side, folder, request, surface, format and depth, as the package sets
+  /// them.
   WorkShare(const Settings& settings, const std::vector<std::string>& maps, const py::dict& choice,
             const py::dict& place)
       : settings_(settings) {
@@ -60,12 +62,12 @@ class WorkShare {
     });
   }
 
-  /// Begins it from the map's file, or goes on with it.
+  /// Begins the work from the map's file, or continues earlier work.
   void open() {
     run([&] { work_ = with_names_of_arguments([&] { return open_work(work_.task, side_); }); });
   }
 
-  /// The same from blocks that were given.
+  /// Begins the work from blocks of heights that were given, or continues earlier work.
   void open_given(const py::dict& map) {
     GivenMap given;
     const auto [rows, columns] = map["shape"].cast<std::pair<int, int>>();
@@ -79,7 +81,7 @@ class WorkShare {
     run([&] { work_ = with_names_of_arguments([&] { return open_given_work(work_.task, given); }); });
   }
 
-  /// Finds out how far others are. What is held of the map stays, as far as it is the same.
+  /// Reads how far other processes are. Data of the map that are held stay if they are still valid.
   void join() {
     run([&] {
       Work joined = join_work(work_.task);
@@ -97,7 +99,7 @@ class WorkShare {
     return parts;
   }
 
-  /// Unless somebody did it.
+  /// Does a part, unless another process did it already.
   void run_part(int part) {
     run([&] {
       if (!is_done(work_, part)) do_part(work_, part);
@@ -108,7 +110,7 @@ class WorkShare {
     run([&] { next_step(work_); });
   }
 
-  /// Writes the files of a bake that is done; their names and what a user should be told.
+  /// Writes the files of a finished bake. Returns their names, and the warnings for the user.
   std::pair<std::vector<std::string>, std::vector<std::string>> finish(const std::filesystem::path& folder,
                                                                        const std::string& name,
                                                                        const std::filesystem::path& input) {
@@ -122,7 +124,7 @@ class WorkShare {
     return {baked_files(name, work_.task.options), told};
   }
 
-  /// Bytes that a process takes for it.
+  /// Bytes of memory that a process needs for the work.
   std::uint64_t bytes() const { return process_bytes(work_); }
 
   py::dict facts() const {
@@ -139,10 +141,10 @@ class WorkShare {
     return told;
   }
 
-  /// Channels of a map, which are behind those of the maps before it.
+  /// Number of channels of a map. They follow those of the maps before it.
   int channels(const std::string& map) const { return component_count(map_named(map), work_.task.options); }
 
-  /// What a user should know, once it is done.
+  /// Warnings for the user, once the work is done.
   std::vector<std::string> warnings() const {
     std::vector<std::string> told = find_faults(read_evidence(work_));
     for (const Warning& warning : work_.state.facts.warnings) told.push_back(warning.message);
@@ -152,7 +154,7 @@ class WorkShare {
   std::string evidence() const { return evidence_text(read_evidence(work_)); }
 
  private:
-  /// Without Python's lock, and on the threads that were chosen.
+  /// Calls a function without Python's lock (GIL), on the chosen number of threads.
   template <class Call>
   void run(Call&& call) {
     PythonWatch watch(settings_.progress);
@@ -170,7 +172,7 @@ class WorkShare {
   Work work_ = {};
 };
 
-/// Channels of a window's maps, (count, rows, columns), of work on that request which is done.
+/// Channels of a window's maps, (count, rows, columns), from the finished work on that request.
 py::array_t<float> read_baked_window(const std::filesystem::path& folder, const std::string& request,
                                      int window, int first, int count) {
   std::vector<float> values;
