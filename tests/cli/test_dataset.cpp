@@ -196,7 +196,7 @@ TEST_CASE("a wrong manifest is refused with file and place", "[cli][dataset]") {
       std::pair{R"({"maps": [{"file": 7}]})", "/maps/0/file: must be a text"},
       std::pair{R"({"maps": [{"shape": "brick"}], "relief_shares": [0.1, 0]})", "/relief_shares/1: must be"},
       std::pair{R"({"maps": [{"shape": "brick"}], "relief_shares": [0.1, 0.1]})",
-                "/relief_shares/1: 0.1 stands"},
+                "/relief_shares/1: 0.1 is given"},
       std::pair{R"({"maps": [{"shape": "brick"}], "boundaries": ["tile", "tile"]})",
                 "/boundaries/1: \"tile\""},
       std::pair{R"({"maps": [{"shape": "brick"}], "options": [{}, {}]})", "/options/0: needs a \"name\""},
