@@ -315,6 +315,6 @@ def test_info_says_which_and_why(tmp_path):
     program = os.environ.get("HEIGHTLIGHT_COMMAND") or pytest.skip("HEIGHTLIGHT_COMMAND names no program: NOT RUN")
     said = lambda path: subprocess.run([program, "info", path], capture_output=True, text=True, check=True).stdout
     terrain = said(write(tmp_path / "dem.tif"))
-    assert "terrain: its file tells the distance between samples, 10 x 10 m" in terrain
+    assert "terrain: its file gives the distance between samples, 10 x 10 m" in terrain
     assert "462800, 5655800 in EPSG:32631" in terrain
-    assert "material: its file tells no distance" in said(write(tmp_path / "plain.tif", crs=None, transform=None))
+    assert "material: its file gives no distance" in said(write(tmp_path / "plain.tif", crs=None, transform=None))

@@ -62,7 +62,7 @@ ReadAlbedo read_albedo_file(const std::string& path, const Heightmap& map, std::
   const StoredImage image = read_image(file, format, memory_limit);
   if (image.width != map.height.width || image.height != map.height.height) {
     throw file_error(path, "the albedo is " + std::to_string(image.width) + " × " +
-                               std::to_string(image.height) + ", the heightmap " +
+                               std::to_string(image.height) + " texels, but the heightmap is " +
                                std::to_string(map.height.width) + " × " + std::to_string(map.height.height));
   }
   Albedo albedo;

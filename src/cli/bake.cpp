@@ -201,9 +201,9 @@ void tell_left_out(const BakeInputs& listed) {
   if (listed.left_out.empty()) return;
   const bool one = listed.left_out.size() == 1;
   tell(std::to_string(listed.left_out.size()) +
-       (one ? " file is no height by its name: " : " files are no heights by their names: ") +
-       listed.left_out.front().filename().string() + (one ? "" : ", …") +
-       "; left out, unless --pattern chooses it");
+       (one ? " file was left out, since it is named like another kind of map: "
+            : " files were left out, since they are named like other kinds of maps: ") +
+       listed.left_out.front().filename().string() + (one ? "" : ", …") + "; --pattern can choose them");
 }
 
 /// Names of the table that are no map's: typing errors, perhaps.
@@ -227,7 +227,7 @@ void bake(BakeCommand& command) {
   tell_unused_reliefs(command, listed);
   if (!command.match.empty() && inputs.size() > 1)
     throw UsageError("match", "",
-                     "is of one material, and there are " + std::to_string(inputs.size()) + " maps");
+                     "is for a single map, but there are " + std::to_string(inputs.size()) + " maps");
   const InputGuard guard = guard_inputs(command, listed);
   check_batch(command, listed, guard);
   const bool only_one = inputs.size() == 1;

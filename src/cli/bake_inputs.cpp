@@ -77,9 +77,10 @@ void list_folder(const fs::path& folder, const std::string& pattern, std::vector
   }
   if (failure) throw file_error(folder, "cannot be read: " + failure.message());
   if (files.size() == before) {
-    throw file_error(
-        folder, left_out.empty() ? "there is no heightmap in it" : "there is no heightmap in it by its name",
-        left_out.empty() ? "" : "pattern");
+    throw file_error(folder,
+                     left_out.empty() ? "contains no heightmap"
+                                      : "contains no heightmap: all files are named like other kinds of maps",
+                     left_out.empty() ? "" : "pattern");
   }
   std::sort(files.begin() + static_cast<std::ptrdiff_t>(before), files.end());
   std::sort(left_out.begin(), left_out.end());

@@ -19,7 +19,7 @@ namespace {
 
 MaterialMap parse_map(const std::string& name) {
   if (const auto map = find_material_map(name)) return *map;
-  throw UsageError("maps", "", "'" + name + "' is no map (known: " + known_material_maps() + ")");
+  throw UsageError("maps", "", "'" + name + "' is not a map (known: " + known_material_maps() + ")");
 }
 
 TextureFormat parse_format(const std::string& text) {
@@ -71,7 +71,7 @@ void parse_bake_options(BakeCommand& command) {
   options.memory = command.run.memory;
   options.seed = command.run.seed;
   if (command.falloff != "none" && command.max_distance.empty()) {
-    throw UsageError("falloff", "", "needs --max-distance, where it ends");
+    throw UsageError("falloff", "", "needs --max-distance, at which it ends");
   }
   if (!command.max_distance.empty())
     check_maximum_distance({.distance = parse_distance("max_distance", command.max_distance, 1)});

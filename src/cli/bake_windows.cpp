@@ -55,7 +55,7 @@ MapRect parse_window(const std::string& text) {
     const auto [stop, fault] = std::from_chars(at, end, numbers[i]);
     const bool goes_on = i + 1 < numbers.size();
     if (fault != std::errc() || (goes_on ? stop == end || *stop != ',' : stop != end))
-      throw UsageError("window", text, "write COLUMN,ROW,WIDTH,HEIGHT, such as 2048,1024,512,512");
+      throw UsageError("window", text, "must be COLUMN,ROW,WIDTH,HEIGHT, such as 2048,1024,512,512");
     at = stop + 1;
   }
   return {.first_row = numbers[1], .first_column = numbers[0], .rows = numbers[3], .columns = numbers[2]};

@@ -20,7 +20,8 @@ MaximumDistance obscurance_maximum_distance(const SimulateOptions& options, cons
   const MaximumDistance maximum_distance{.distance = parse_distance("obscurance", options.obscurance, width),
                                          .falloff = falloff_named(options.falloff)};
   if (surface.tiles() && maximum_distance.distance > std::min(width, height) / 2)
-    throw UsageError("obscurance", options.obscurance, "passes half of a map that tiles");
+    throw UsageError("obscurance", options.obscurance,
+                     "is more than half of the shorter side of a map that tiles");
   return maximum_distance;
 }
 

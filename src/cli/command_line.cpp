@@ -77,7 +77,7 @@ void refuse_unknown_command(const CLI::App& app, int count, const char* const* a
     if (command->get_name() == first) return;
     known += (known.empty() ? "" : ", ") + command->get_name();
   }
-  throw UsageError("there is no command '" + first + "'; known are " + known);
+  throw UsageError("there is no command '" + first + "'; the commands are " + known);
 }
 
 // CLI11 tells usage errors from requests for help by the exit code that it would use.
@@ -85,7 +85,7 @@ int finish_parse(const CLI::App& app, const CLI::ParseError& error) {
   if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);
   const std::string file = config_file_of(app);
   return fail(2, std::string(error.what()) + " (see heightlight --help" +
-                     (file.empty() ? ")" : "; options are also those of " + file + ")"));
+                     (file.empty() ? ")" : "; options were also read from " + file + ")"));
 }
 
 /// Runs the command, and says what it threw.
@@ -125,11 +125,11 @@ int run_command_line(int argument_count, const char* const* arguments) {
   open_standard_streams();
   note_command(argument_count, arguments);
   CLI::App app{
-      "Light on height fields: ambient occlusion, form factors, bounces, and what closed forms make of them"};
+      "Light on height fields: ambient occlusion, form factors and bounces, and how well closed forms "
+      "predict them"};
   app.footer(
-      "Exit codes: 0 done; 1 it could not be done; 2 what was asked makes no sense; 3 done, but for the "
-      "plots\n"
-      "(gnuplot does not work); 128 + N ended by signal N.");
+      "Exit codes: 0 done; 1 failed; 2 wrong usage; 3 done except for the plots (gnuplot does not work);\n"
+      "128 + N ended by signal N.");
   app.name("heightlight");
   app.set_version_flag("--version", HEIGHTLIGHT_VERSION);
   app.require_subcommand(1);

@@ -205,7 +205,7 @@ void compare(CompareOptions& options) {
 
 void add_compare_command(CLI::App& app) {
   auto* command = app.add_subcommand(
-      "compare", "Closed forms and methods for AO and bounces, beside light transport: error, and time");
+      "compare", "Compare closed forms and methods for AO and bounces with light transport: errors and time");
   auto options = std::make_shared<CompareOptions>();
   add_map_options(*command, options->map);
   command->add_option("-o,--output", options->folder, "folder for the results")->type_name("DIR")->required();
@@ -214,25 +214,24 @@ void add_compare_command(CLI::App& app) {
   CLI::Option* directional = add_directional_option(*command, options->directional);
   specular->excludes(terrain)->excludes(directional);
   directional->excludes(terrain);
-  CLI::Option* albedo =
-      command
-          ->add_option(
-              "--albedo", options->albedo,
-              "of the totals: one to eight numbers, a colour, or an image of the map's size (0.2,0.5,0.8)")
-          ->type_name("R,R…|#RRGGBB|FILE")
-          ->excludes(specular)
-          ->excludes(directional);
+  CLI::Option* albedo = command
+                            ->add_option("--albedo", options->albedo,
+                                         "albedos for the total irradiance: one to eight numbers, a colour, "
+                                         "or an image of the size of the map (default 0.2,0.5,0.8)")
+                            ->type_name("R,R…|#RRGGBB|FILE")
+                            ->excludes(specular)
+                            ->excludes(directional);
   command
-      ->add_option(
-          "--sky", options->sky,
-          "image of radiance, latitude by longitude, whose direct irradiance is compared (one of two "
-          "tones); its middle looks to the map's top")
+      ->add_option("--sky", options->sky,
+                   "image of radiance by latitude and longitude whose direct irradiance is compared "
+                   "(default: a sky of two tones); the middle of the image faces the top of the map")
       ->type_name("FILE.hdr|exr")
       ->excludes(terrain)
       ->excludes(specular);
   command
-      ->add_option("--azimuths", options->azimuths,
-                   "of the reference, an even number (128); its error stands in the report")
+      ->add_option(
+          "--azimuths", options->azimuths,
+          "number of azimuths of the reference, even, 2 to 65536 (default 128); the report gives its error")
       ->excludes(terrain)
       ->excludes(specular)
       ->excludes(directional);
@@ -245,8 +244,8 @@ void add_compare_command(CLI::App& app) {
   }
   add_run_options(*command, options->run);
   command->footer(
-      "Writes report.md, which begins with the answer: what each closed form errs by on exact AO and on "
-      "GTAO's;\n"
+      "Writes report.md, which begins with the answer: the error of each closed form on exact AO and on AO "
+      "of GTAO;\n"
       "forms, pareto (.svg, .png), showtime.png (how it looks), errors.png, total_errors.png, "
       "sky_light.png,\n"
       "directions.png, error_NN_METHOD.png; compare.csv, compare.json; forms.glsl and .hlsl where --form "
@@ -254,7 +253,7 @@ void add_compare_command(CLI::App& app) {
       "With --terrain: terrain.md, terrain_forms.csv, terrain_methods (.csv, .svg, .png), terrain.json.\n"
       "With --specular: specular (.md, .csv, .png, .json). With --directional: directional (.md, .csv, "
       ".png,\n"
-      ".json), and cone_forms.csv: what the forms err by, whatever the map.\n"
+      ".json), and cone_forms.csv: the errors of the forms, independent of the map.\n"
       "Examples:\n"
       "  heightlight compare brick.png -o brick\n"
       "  heightlight compare dem.tif -o dem --texel 50 --boundary open --albedo 0.3\n"

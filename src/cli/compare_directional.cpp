@@ -105,8 +105,8 @@ void study_directional_on(const DirectionalRun& run, const Surface& surface, Loa
 
 CLI::Option* add_directional_option(CLI::App& command, bool& wanted) {
   return command.add_flag("--directional", wanted,
-                          "instead: diffuse light of uneven skies by AO, bent normals, harmonics and "
-                          "directional GTAO, beside exact horizons; with --sky under that one, too");
+                          "compare instead the diffuse light of uneven skies by AO, bent normals, harmonics "
+                          "and directional GTAO with exact horizons; --sky adds one more sky");
 }
 
 void compare_directional(DirectionalRun run) {

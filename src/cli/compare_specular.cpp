@@ -33,7 +33,7 @@ SpecularStudyOptions specular_options(const SpecularRun& run) {
       .memory = run.run.memory, .seed = run.run.seed, .watch = terminal_watch(run.run.quiet)};
   const std::string& text = run.specular.roughness;
   const std::optional<std::vector<double>> roughness = parse_number_list(text);
-  if (!roughness) throw UsageError("roughness", text, "must be numbers above 0, and at most 1");
+  if (!roughness) throw UsageError("roughness", text, "must be numbers above 0 and at most 1");
   options.roughness = *roughness;
   for (const double one : options.roughness) check_gloss({.roughness = one});
   for (const std::string& view : run.specular.views) options.views.push_back(parse_view(view));
@@ -119,23 +119,25 @@ void study_specular_on(const SpecularRun& run, const Surface& surface, LoadedHei
 }  // namespace
 
 CLI::Option* add_specular_options(CLI::App& command, SpecularCompareOptions& options) {
-  CLI::Option* specular = command.add_flag(
-      "--specular", options.wanted, "instead: specular occlusion, by AO, GTSO and others, beside rays");
+  CLI::Option* specular =
+      command.add_flag("--specular", options.wanted,
+                       "compare instead the specular occlusion by AO, GTSO and other methods with rays");
   command
       .add_option("--roughness", options.roughness,
-                  "of --specular: GGX's alpha, above 0 and at most 1 (0.02,0.13,0.4)")
+                  "values of roughness for --specular: alpha of GGX, each above 0 and at most 1 (default "
+                  "0.02,0.13,0.4)")
       ->type_name("R,R…")
       ->needs(specular);
   command
       .add_option("--view", options.views,
-                  "of --specular: whence it is seen, in degrees clockwise from north and above the "
-                  "horizontal; may be repeated (65,90 65,45 65,20)")
+                  "direction of view for --specular: azimuth clockwise from north and elevation above the "
+                  "horizontal, in degrees; may be repeated (default 65,90 65,45 65,20)")
       ->type_name("AZIMUTH,ELEVATION")
       ->allow_extra_args(false)
       ->needs(specular);
   command
       .add_option("--table", options.table,
-                  "of --specular: a table of GTSO to be tried, too, as specular-table makes it")
+                  "table of GTSO made by specular-table, to compare as well with --specular")
       ->type_name("FILE.ktx")
       ->needs(specular);
   return specular;

@@ -35,7 +35,7 @@ TrialOptions trial_options(const TerrainRun& run, const Surface& surface) {
   TrialOptions options{.sun = run.sun, .seed = run.run.seed, .watch = terminal_watch(run.run.quiet)};
   if (!run.albedo.empty()) {
     const std::optional<std::vector<double>> albedos = parse_albedo_list(run.albedo);
-    if (!albedos) throw UsageError("albedo", run.albedo, "terrain is tried at numbers, one by one");
+    if (!albedos) throw UsageError("albedo", run.albedo, "must be one to eight numbers with --terrain");
     options.albedos = *albedos;
   }
   const std::uint64_t held = surface.map.height.size() * study_bytes_per_texel(options.albedos.size());
@@ -135,14 +135,15 @@ void study_on(const TerrainRun& run, const Surface& surface, LoadedHeightmap& lo
 
 CLI::Option* add_terrain_options(CLI::App& command, TerrainOptions& options) {
   options.sun = parse_sun("135,30");
-  CLI::Option* terrain = command.add_flag(
-      "--terrain", options.wanted,
-      "instead: formulas of energy balances for what terrain reflects, and the usual algorithms for sky view "
-      "factors");
+  CLI::Option* terrain =
+      command.add_flag("--terrain", options.wanted,
+                       "compare instead the formulas that energy balances use for reflected light of "
+                       "terrain, and the usual algorithms for sky view factors");
   command
       .add_option_function<std::string>(
           "--sun", [&options](const std::string& text) { options.sun = parse_sun(text); },
-          "of --terrain: degrees clockwise from north, and above the horizontal (135,30)")
+          "position of the sun for --terrain: degrees clockwise from north and degrees above the horizontal "
+          "(default 135,30)")
       ->type_name("AZIMUTH,ELEVATION")
       ->needs(terrain);
   return terrain;

@@ -8,12 +8,14 @@
 namespace heightlight {
 
 void add_completion_command(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("completion", "Print what lets a shell complete this program's options");
+  CLI::App* command = app.add_subcommand(
+      "completion", "Print the script that lets a shell complete the options of this program");
   auto shell = std::make_shared<std::string>();
-  command->add_option("SHELL", *shell, "bash or zsh")->required()->check(CLI::IsMember({"bash", "zsh"}));
+  command->add_option("SHELL", *shell, "shell for which to print the script: bash or zsh")
+      ->required()
+      ->check(CLI::IsMember({"bash", "zsh"}));
   command->footer(
-      "cmake --install puts both where shells find them. By hand:\n"
+      "cmake --install puts both scripts where the shells find them. By hand:\n"
       "  heightlight completion bash > ~/.local/share/bash-completion/completions/heightlight\n"
       "  heightlight completion zsh > DIR/_heightlight                  DIR of zsh's $fpath");
   command->callback(

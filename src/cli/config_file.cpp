@@ -72,13 +72,14 @@ class TomlLine {
   }
 
   void expect_end() const {
-    if (!is_done()) throw UsageError("'" + std::string(rest_) + "' is too much (a text stands in quotes)");
+    if (!is_done())
+      throw UsageError("'" + std::string(rest_) + "' is not expected here (texts must be in quotes)");
   }
 
   /// Up to a blank, a comment, or one of these.
   std::string bare(const std::string& ends) {
     const std::size_t end = std::min(rest_.find_first_of(std::string(kBlanks) + '#' + ends), rest_.size());
-    if (end == 0) throw UsageError("something is missing");
+    if (end == 0) throw UsageError("a name or a value is missing");
     std::string text(rest_.substr(0, end));
     rest_.remove_prefix(end);
     skip_blanks();
@@ -95,11 +96,13 @@ class TomlLine {
       if (mark == '"' && rest_[at] == '\\') {
         ++at;
         if (at == rest_.size() || (rest_[at] != '"' && rest_[at] != '\\'))
-          throw UsageError("after a backslash comes '\"' or another; '…' takes backslashes as they are");
+          throw UsageError(
+              "after a backslash, only '\"' or a second backslash may follow; in '…', backslashes are "
+              "ordinary characters");
       }
       text += rest_[at];
     }
-    if (at >= rest_.size()) throw UsageError("a quote is open");
+    if (at >= rest_.size()) throw UsageError("a quoted text has no closing quote");
     rest_.remove_prefix(at + 1);
     skip_blanks();
     return text;
@@ -118,7 +121,8 @@ const CLI::App* find_command(const CLI::App& app, const std::string& name) {
 /// Throws UsageError unless an option of a command has that name.
 void check_key(const CLI::App& app, const std::string& section, const std::string& key) {
   if (section.empty())
-    throw UsageError("'" + key + "' stands in no section; a command's options stand below its name: [bake]");
+    throw UsageError("'" + key +
+                     "' is in no section; put the options of a command below its name, such as [bake]");
   const CLI::App* command = find_command(app, section);
   const CLI::Option* option = command->get_option_no_throw("--" + key);
   if (option == nullptr) option = command->get_option_no_throw(key);
@@ -166,7 +170,7 @@ class CommandConfig : public CLI::Config {
     const std::string key = line.key();
     check_key(app_, reading.section, key);
     if (!reading.keys.insert(reading.section + '.' + key).second)
-      throw UsageError("'" + key + "' stands twice in " + reading.section);
+      throw UsageError("'" + key + "' is given twice in section " + reading.section);
     CLI::ConfigItem item;
     item.parents = {reading.section};
     item.name = key;
@@ -191,8 +195,8 @@ void add_config_options(CLI::App& app) {
               if (app.get_config_ptr()->count() > 0) throw UsageError("--config: give one file");
               app.get_config_ptr()->add_result(file);
             },
-            "TOML that gives options, below [" + command->get_name() +
-                "], by their names; those given here win")
+            "TOML file with options by their names, in the section [" + command->get_name() +
+                "]; options on the command line take precedence")
         ->type_name("FILE")
         ->configurable(false)
         ->trigger_on_parse();

@@ -104,7 +104,7 @@ void make_whole(Dataset& dataset, const DatasetOptions& options) {
   write_tables(dataset.origin, dataset.runs, options.folder, dataset.inputs, options.report);
   if (!options.run.quiet) {
     const std::ptrdiff_t stale = count_stale(dataset.runs, options.folder);
-    if (stale > 0) fmt::print("{} folders in runs/ belong to no run of the manifest any more\n", stale);
+    if (stale > 0) fmt::print("{} folders in runs/ no longer belong to any run of the manifest\n", stale);
     fmt::print("results in {}\n", printable(options.folder));
   }
   check_runs(dataset);
@@ -133,11 +133,12 @@ void merge(const Dataset& dataset, const DatasetOptions& options) {
 /// The shard that was asked for, if any. Throws UsageError where options contradict each other.
 std::optional<Shard> read_shard(const DatasetOptions& options) {
   if (!options.others.empty() && !options.merge)
-    throw UsageError(options.others[0].string() + ": only --merge takes in the runs of other folders");
+    throw UsageError(options.others[0].string() +
+                     ": runs of other folders can only be taken in with --merge");
   if (options.shard.empty()) return std::nullopt;
   const Shard shard = parse_shard(options.shard);
   if (options.merge)
-    throw UsageError("shard", options.shard, "cannot be together with --merge, which takes all shards");
+    throw UsageError("shard", options.shard, "cannot be combined with --merge, which merges all shards");
   return shard;
 }
 
@@ -166,36 +167,45 @@ void make_dataset(DatasetOptions& options) {
 void add_dataset_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("dataset", "Simulate many maps, reliefs and options into one table");
   auto options = std::make_shared<DatasetOptions>();
-  command->add_option("MANIFEST", options->manifest, "what to simulate, as JSON; see below")->required();
+  command
+      ->add_option("MANIFEST", options->manifest, "JSON file that says what to simulate; its format is below")
+      ->required();
   command->add_option("FOLDER", options->others,
-                      "with --merge: other folders of this dataset, whose runs are taken in");
+                      "other folders of this dataset whose runs are taken in; only with --merge");
   command->add_option("-o,--output", options->folder, "folder for the results")->type_name("DIR")->required();
   CLI::Option* shard =
       command
           ->add_option("--shard", options->shard,
-                       "do share K of N of the runs, from 1 to N, and leave the tables to --merge")
+                       "do only part K of N of the runs, with K from 1 to N; --merge writes the tables later")
           ->type_name("K/N");
-  command->add_flag("--merge", options->merge, "write the tables from runs that are done; simulate nothing");
+  command->add_flag("--merge", options->merge,
+                    "write the tables from the runs that are done, without simulating");
   add_report_option(*command, options->report);
   shard->excludes(command->get_option("--report"));
   add_resource_options(*command, options->run);
   command->footer(
       describe_manifest() +
-      "Results: dataset.csv (all curves), dataset.json (where they come from, how far to trust them),\n"
-      "costs.csv (seconds), and in runs/ a folder per run with what simulate writes. Stopped or killed, the\n"
-      "same command goes on where it was; runs whose map, options or version changed are made again. What\n"
-      "is no longer in the manifest leaves the tables; its folder stays, and counts again when it returns.\n"
+      "Results: dataset.csv (all curves), dataset.json (their origin and their errors), costs.csv (seconds), "
+      "and\n"
+      "in runs/ one folder per run with the results of simulate. If the command was stopped or killed, the "
+      "same\n"
+      "command continues where it was. Runs whose map, options or version changed are done again. Runs that "
+      "are\n"
+      "no longer in the manifest leave the tables; their folders stay and count again if the runs return.\n"
       "Any number of processes may work in one DIR: each run is done by one of them. Without --shard, all "
       "of\n"
-      "them end when every run is done, and write the same tables. A shard has the runs whose hash falls to\n"
-      "it, and ends when those are done. --merge refuses folders that another version or another manifest\n"
-      "made (origin.json in each tells). Where runs are missing, those that failed included, it says which,\n"
-      "exits with 1 and writes nothing; without --merge, the tables come without the runs that fail.\n"
+      "them end when every run is done, and write the same tables. A shard gets the runs that their hash "
+      "assigns\n"
+      "to it, and ends when those are done. --merge refuses folders made by another version or from another\n"
+      "manifest (each folder has this in origin.json). If runs are missing or failed, --merge names them, "
+      "exits\n"
+      "with 1 and writes nothing; without --merge, the tables are written without the failed runs.\n"
       "Examples:\n"
       "  heightlight dataset study.json -o study\n"
-      "  heightlight dataset study.json -o study --shard 2/8     # 1/8 … 8/8, on machines that share a disk\n"
+      "  heightlight dataset study.json -o study --shard 2/8     # 1/8 … 8/8 on machines that share a disk\n"
       "  heightlight dataset study.json -o study --merge\n"
-      "  heightlight dataset study.json here there -o study --merge      # of machines that share none");
+      "  heightlight dataset study.json here there -o study --merge      # runs of machines without a shared "
+      "disk");
   command->callback([options] { make_dataset(*options); });
 }
 

@@ -50,17 +50,17 @@ void check_origin(const nlohmann::ordered_json& origin, const fs::path& folder) 
   std::error_code ignored;
   if (!fs::is_directory(folder, ignored)) throw file_error(folder, "no such folder");
   if (!fs::exists(folder / kOriginFile, ignored))
-    throw file_error(folder, std::string("is no folder of a dataset: it has no ") + kOriginFile);
+    throw file_error(folder, std::string("is not the folder of a dataset: it has no ") + kOriginFile);
   const nlohmann::json found = read_json(folder / kOriginFile);
   const nlohmann::json wanted(origin);
   const std::string version = text_at(found, "/version");
   if (version != HEIGHTLIGHT_VERSION) {
     throw file_error(folder, "was made by version \"" + version +
-                                 "\", and this is " HEIGHTLIGHT_VERSION ": make its runs again");
+                                 "\", but this is version " HEIGHTLIGHT_VERSION ": do its runs again");
   }
   if (text_at(found, "/manifest/sha256") != text_at(wanted, "/manifest/sha256")) {
-    throw file_error(folder, "was made from another manifest than what " + text_at(wanted, "/manifest/file") +
-                                 " holds: make its runs again");
+    throw file_error(folder, "was made from a manifest other than the current " +
+                                 text_at(wanted, "/manifest/file") + ": do its runs again");
   }
 }
 

@@ -139,7 +139,7 @@ void do_runs(const std::vector<DatasetRun*>& runs, const std::vector<fs::path>& 
     }
     if (busy.size() == waiting.size()) {
       if (!quiet && !std::exchange(has_waited, true))
-        report(fmt::format("waiting for other processes: {} runs are theirs", busy.size()));
+        report(fmt::format("waiting for {} runs of other processes", busy.size()));
       wait_for_locks();
     }
     waiting = std::move(busy);

@@ -56,7 +56,7 @@ std::vector<JudgedMap> read_maps(const FitOptions& options, std::vector<std::fil
   }
   if (without_run > 0 && without_run < maps.size())
     tell("warning: " + std::to_string(without_run) + " of " + std::to_string(maps.size()) +
-         " maps have no summary.json beside their curves, and are not judged by what it tells");
+         " maps have no summary.json beside their curves; forms that need it are not judged on these maps");
   return maps;
 }
 
@@ -91,10 +91,9 @@ void check_judged(const FitReport& report, const UserForm& form) {
   const JudgedForm* judged = by_texel ? by_texel : find_judged(report.trial.per_bin, form);
   if (!judged && report.trial.per_texel.empty() &&
       (wants_both_kinds(form) || user_form_extra(form) != ExtraInput::none))
-    throw UsageError(
-        "form", form.name,
-        "is a function of n, or of both alpha and A, and no map has every texel's bounces beside "
-        "its curves (simulate --save-bounces)");
+    throw UsageError("form", form.name,
+                     "depends on n, or on both alpha and A, but no map has the bounces of every texel beside "
+                     "its curves (simulate --save-bounces)");
   if (!judged) throw UsageError("form", form.name, "has no finite value on any of the maps");
   if (judged->outside_share > 0)
     tell(fmt::format("warning: form {} has no finite value on {:.2g} % of the {}", form.name,
@@ -165,22 +164,26 @@ void fit(FitOptions& options) {
 
 void add_fit_command(CLI::App& app) {
   auto* command = app.add_subcommand(
-      "fit", "Closed forms of the total irradiance: fitted, and judged on maps that no fit saw");
+      "fit",
+      "Fit closed forms of the total irradiance, and judge them on maps that were not used in the fit");
   auto options = std::make_shared<FitOptions>();
   command
-      ->add_option("CURVES", options->curves, "curves.csv of simulate or dataset.csv of dataset, one or many")
+      ->add_option("CURVES", options->curves,
+                   "one or more files: curves.csv of simulate or dataset.csv of dataset")
       ->required();
   command->add_option("-o,--output", options->folder, "folder for the results")->type_name("DIR")->required();
   add_user_form_options(*command, options->forms);
-  command->add_option("--bootstrap", options->bootstrap, "draws for the intervals of parameters (200)");
+  command->add_option(
+      "--bootstrap", options->bootstrap,
+      "number of bootstrap draws for the confidence intervals of parameters, 20 to 100000 (default 200)");
   add_report_option(*command, options->report);
   add_run_options(*command, options->run);
   command->footer(
-      "Where simulate --save-bounces left every bounce beside a curves.csv, forms are judged texel by texel "
-      "too.\n"
-      "Maps whose names begin alike, up to the first _ - or . and without digits, are one material; each "
-      "material\n"
-      "is judged by what was fitted to the others.\n"
+      "If simulate --save-bounces wrote every bounce beside a curves.csv, forms are also judged texel by "
+      "texel.\n"
+      "Maps whose names are the same up to the first _ - or ., without digits, count as one material. Forms "
+      "are\n"
+      "judged on each material after a fit to the other materials only.\n"
       "Writes models.json, models.csv, models.glsl, models.hlsl, ratios.csv (is tau one number?), and\n"
       "plots: fitted, errors, bounces, ratios, saturation, cubic.\n"
       "Examples:\n"

@@ -19,7 +19,7 @@ void print_parameters(const FittedFamily& fitted) {
                value - family.published[p],
                is_determined(family, fitted.fit.parameters, fitted.intervals, i)
                    ? ""
-                   : "  these maps hardly tell it");
+                   : "  hardly determined by these maps");
   }
   fmt::print("  RMS over the points: {:.4f}, at the {} parameters {:.4f}\n", fitted.fit.rms, start,
              fitted.published_rms);

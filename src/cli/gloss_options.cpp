@@ -14,12 +14,12 @@ namespace heightlight {
 Vector3 parse_view(const std::string& text) {
   const std::optional<std::vector<double>> numbers = parse_number_list(text);
   if (!numbers || numbers->size() != 2)
-    throw UsageError("view", text, "write azimuth and elevation in degrees, such as 135,45");
+    throw UsageError("view", text, "must be azimuth and elevation in degrees, such as 135,45");
   constexpr double kRadians = std::numbers::pi / 180;
   const double azimuth = std::numbers::pi / 2 - (*numbers)[0] * kRadians;
   const double elevation = (*numbers)[1] * kRadians;
   if (!((*numbers)[1] > 0 && (*numbers)[1] <= 90))
-    throw UsageError("view", text, "must be from above the horizontal, its elevation at most 90 degrees");
+    throw UsageError("view", text, "must have an elevation above 0 and at most 90 degrees");
   return {static_cast<float>(std::cos(elevation) * std::cos(azimuth)),
           static_cast<float>(std::cos(elevation) * std::sin(azimuth)),
           static_cast<float>(std::sin(elevation))};
@@ -28,7 +28,7 @@ Vector3 parse_view(const std::string& text) {
 double parse_roughness(const std::string& text) {
   const std::optional<std::vector<double>> numbers = parse_number_list(text);
   if (!numbers || numbers->size() != 1)
-    throw UsageError("roughness", text, "must be a number above 0, and at most 1");
+    throw UsageError("roughness", text, "must be a number above 0 and at most 1");
   check_gloss({.roughness = numbers->front()});
   return numbers->front();
 }

@@ -30,7 +30,7 @@ void report_file(const std::filesystem::path& path, const SourceFacts& facts) {
   if (facts.white_is_zero) fmt::print("white is 0  larger numbers are darker, and lower\n");
   if (facts.declared_no_data)
     fmt::print("no-data    {:.9g}, {}\n", *facts.declared_no_data,
-               facts.no_data_assumed ? "by default of such grids" : "says the file");
+               facts.no_data_assumed ? "the default of such grids" : "according to the file");
   fmt::print("sha256     {}\n", facts.sha256);
 }
 
@@ -40,7 +40,7 @@ void report_place(const Georeference& place) {
     fmt::print("place      upper left corner at {:.12g}, {:.12g}{}\n", (*place.corner)[0], (*place.corner)[1],
                place.system.empty() ? "" : " in " + printable(place.system));
   } else {
-    fmt::print("place      not told\n");
+    fmt::print("place      not given\n");
   }
   if (place.height_metres) fmt::print("heights in units of {:.9g} m\n", *place.height_metres);
 }
@@ -48,19 +48,20 @@ void report_place(const Georeference& place) {
 /// Whether it is terrain or a material, and why: what `bake` takes it for.
 void report_kind(const LoadedHeightmap& loaded, const LoadOptions& options) {
   if (options.boundary == Boundary::tile) {
-    fmt::print("kind       material: it is to tile\n");
+    fmt::print("kind       material: the map tiles\n");
   } else if (!loaded.place && options.texel && options.boundary == Boundary::open) {
-    fmt::print("kind       terrain: a distance between samples is given, and open edges\n");
+    fmt::print("kind       terrain: a distance between samples and open edges are given\n");
   } else if (!loaded.place) {
-    fmt::print("kind       material: its file tells no distance between samples\n");
+    fmt::print("kind       material: its file gives no distance between samples\n");
   }
   if (!loaded.place) return;
   const Georeference& place = *loaded.place;
-  const std::string unit = place.in_degrees       ? " degrees"
-                           : !place.metres        ? ", in a unit that it does not tell: that of its heights"
+  const std::string unit = place.in_degrees ? " degrees"
+                           : !place.metres
+                               ? ", in a unit that the file does not name; it is taken as that of the heights"
                            : *place.metres == 1.0 ? " m"
                                                   : fmt::format(" units of {:.9g} m", *place.metres);
-  const std::string distance = fmt::format("its file tells the distance between samples, {:.9g} x {:.9g}{}",
+  const std::string distance = fmt::format("its file gives the distance between samples, {:.9g} x {:.9g}{}",
                                            place.cell.x, place.cell.y, unit);
   if (options.boundary == Boundary::tile) {
     fmt::print("           {}\n", distance);
@@ -161,16 +162,18 @@ void run_info(MapOptions& map_options, RunOptions& run_options, bool json) {
 }  // namespace
 
 void add_info_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("info", "Say what a heightmap file holds and how it is understood");
+  CLI::App* command =
+      app.add_subcommand("info", "Show what a heightmap file holds and how it is interpreted");
   auto map_options = std::make_shared<MapOptions>();
   auto run_options = std::make_shared<RunOptions>();
   add_map_options(*command, *map_options);
   add_run_options(*command, *run_options);
   auto json = std::make_shared<bool>(false);
-  command->add_flag("--json", *json, "all of it as one line of JSON");
+  command->add_flag("--json", *json, "print everything as one line of JSON");
   command->footer(
-      "Lengths and heights are in the map's world unit. Edges wrap when steps across them are like those "
-      "beside them or inside.\n"
+      "Lengths and heights are in the world unit of the map. Edges count as wrapping if the height steps "
+      "across them are\n"
+      "like those beside the edges or inside the map.\n"
       "Examples:\n"
       "  heightlight info bricks.png\n"
       "  heightlight info bricks.png --width 2 --relief 0.05\n"

@@ -7,8 +7,9 @@
 namespace heightlight {
 
 void add_json_option(CLI::App& command, bool& json) {
-  command.add_flag("--json", json,
-                   "on stdout one line of JSON per map (files, errors, seconds), and no report");
+  command.add_flag(
+      "--json", json,
+      "print one line of JSON per map to standard output (files, errors, seconds), instead of the summary");
 }
 
 MapLine failed_line(const std::filesystem::path& map, const std::string& fault, double seconds) {

@@ -20,8 +20,8 @@ Error JsonPlace::error(const std::string& fault) const {
 void JsonPlace::check_keys(const std::set<std::string>& known) const {
   for (const std::string& key : keys()) {
     if (known.contains(key)) continue;
-    std::string fault = "there is no \"";
-    fault.append(key).append("\" here; known are ");
+    std::string fault = "there is no key \"";
+    fault.append(key).append("\" here; known keys are ");
     for (const std::string& name : known) fault.append(name == *known.begin() ? "" : ", ").append(name);
     throw error(fault);
   }
@@ -41,7 +41,7 @@ std::vector<std::string> JsonPlace::keys() const {
 }
 
 std::vector<JsonPlace> JsonPlace::items() const {
-  if (!value_.is_array() || value_.empty()) throw error("must be a list with something in it, [ … ]");
+  if (!value_.is_array() || value_.empty()) throw error("must be a list that is not empty, [ … ]");
   std::vector<JsonPlace> places;
   for (std::size_t i = 0; i < value_.size(); ++i) {
     places.push_back(JsonPlace(value_[i], file_, pointer_ + "/" + std::to_string(i)));

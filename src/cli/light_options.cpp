@@ -28,13 +28,14 @@ std::vector<TexelVector> read_direct(const std::filesystem::path& path, const Su
                                      std::uint64_t memory) {
   const InputFile file(path);
   const FileFormat format = recognise_format(file);
-  if (!is_picture(format)) throw file.error("is no image of direct irradiance, E/pi");
+  if (!is_picture(format)) throw file.error("is not an image, as direct irradiance (E/pi) must be");
   const StoredImage image = read_image(file, format, memory);
   if (image.is_integer)
-    throw file.error("holds integers; direct irradiance, E/pi, is told in floats: EXR, or TIFF of floats");
+    throw file.error(
+        "holds integers; direct irradiance (E/pi) must be stored as floats: EXR, or TIFF of floats");
   if (image.width != surface.width() || image.height != surface.height())
-    throw file.error(fmt::format("the direct irradiance is {} × {}, the heightmap {} × {}", image.width,
-                                 image.height, surface.width(), surface.height()));
+    throw file.error(fmt::format("the direct irradiance is {} × {} texels, but the heightmap is {} × {}",
+                                 image.width, image.height, surface.width(), surface.height()));
   const std::size_t stride = image.channels.size();
   std::vector<TexelVector> channels(stride >= 3 ? 3 : 1, TexelVector(surface.map.height.size()));
   std::visit(
@@ -45,7 +46,7 @@ std::vector<TexelVector> read_direct(const std::filesystem::path& path, const Su
             const auto value = static_cast<double>(samples[i * stride + c]);
             if (!(value >= 0 && std::isfinite(value)))
               throw file.error(
-                  "has direct irradiance that is negative or no number, where there are heights");
+                  "has direct irradiance that is negative or not a number at texels that have heights");
             channels[c][i] = value;
           }
         }
@@ -77,7 +78,7 @@ DirectIrradiance light_of_sky(const std::string& name, const Surface& surface, c
 Sun parse_sun(const std::string& text) {
   const std::optional<std::vector<double>> list = parse_number_list(text);
   if (!list || list->size() < 2 || list->size() > 3)
-    throw UsageError("sun", text, "write azimuth and elevation in degrees, such as 135,30");
+    throw UsageError("sun", text, "must be azimuth and elevation in degrees, such as 135,30");
   const std::vector<double>& numbers = *list;
   Sun sun{.azimuth_rad = std::numbers::pi / 2 - numbers[0] * kDegree, .elevation_rad = numbers[1] * kDegree};
   if (numbers.size() == 3) sun.diameter_rad = numbers[2] * kDegree;
@@ -86,22 +87,23 @@ Sun parse_sun(const std::string& text) {
 }
 
 void add_light_options(CLI::App& command, LightOptions& options) {
-  auto* direct =
+  auto* direct = command
+                     .add_option("--direct", options.direct,
+                                 "user-given direct irradiance, from which the bounces are computed: an "
+                                 "image of E/pi in floats, of the size of the map")
+                     ->type_name("FILE");
+  auto* sun =
       command
-          .add_option("--direct", options.direct,
-                      "first light of one's own, whose bounces are found: an image of E/pi in floats, "
-                      "of the map's size")
-          ->type_name("FILE");
-  auto* sun = command
-                  .add_option("--sun", options.sun,
-                              "first light of the sun alone: azimuth clockwise from north and elevation, in "
-                              "degrees, and its diameter (0.533); E/pi is 1 where a plane faces it")
-                  ->type_name("AZ,EL[,D]");
+          .add_option("--sun", options.sun,
+                      "direct irradiance of the sun alone: azimuth clockwise from north, elevation and "
+                      "diameter (default 0.533) in degrees; E/pi is 1 on a plane that faces the sun")
+          ->type_name("AZ,EL[,D]");
   auto* sky =
       command
-          .add_option("--sky", options.sky,
-                      "first light of a sky: uniform (default), overcast, or an image of radiance, latitude "
-                      "by longitude, whose middle looks to the map's top; a level plain's E/pi is 1")
+          .add_option(
+              "--sky", options.sky,
+              "direct irradiance of a sky: uniform (default), overcast, or an image of radiance by latitude "
+              "and longitude whose middle faces the top of the map; E/pi is 1 on a level plain")
           ->type_name("uniform|overcast|FILE");
   sun->excludes(direct);
   sky->excludes(direct)->excludes(sun);
@@ -128,7 +130,7 @@ std::size_t count_light_channels(const LightOptions& options) {
   for (const std::filesystem::path& path : light_files(options)) {
     const InputFile file(path);
     const FileFormat format = recognise_format(file);
-    if (!is_picture(format)) throw file.error("is no image of light");
+    if (!is_picture(format)) throw file.error("is not an image of direct irradiance or of a sky");
     if (count_channels(file, format) >= 3) return 3;
   }
   return 1;

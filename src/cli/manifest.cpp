@@ -34,7 +34,7 @@ Boundary read_boundary(const JsonPlace& place) {
   const std::string text = place.text();
   if (text == "tile") return Boundary::tile;
   if (text == "open") return Boundary::open;
-  throw place.error("\"" + text + "\" is no boundary: known are \"tile\" and \"open\"");
+  throw place.error("\"" + text + "\" is not a boundary; use \"tile\" or \"open\"");
 }
 
 Spacing read_spacing(const JsonPlace& place) {
@@ -116,7 +116,7 @@ void read_albedo_option(const std::filesystem::path& manifest, const JsonPlace& 
   std::vector<JsonPlace> channels{place};
   if (place.is_list()) channels = place.items();
   if (channels.size() != 1 && channels.size() != 3)
-    throw place.error("must be one number, three, or the name of a file");
+    throw place.error("must be one number, three numbers, or the name of a file");
   options.simulate.albedo.clear();
   for (const JsonPlace& channel : channels) {
     const double value = channel.number();
@@ -160,7 +160,7 @@ ManifestOptions read_options(const std::filesystem::path& manifest, const JsonPl
 /// Nothing may stand twice: it would be simulated twice, under one name.
 template <class T>
 void check_once(const JsonPlace& place, std::set<T>& seen, const T& value, const std::string& text) {
-  if (!seen.insert(value).second) throw place.error(text + " stands twice");
+  if (!seen.insert(value).second) throw place.error(text + " is given twice");
 }
 
 void read_maps(const JsonPlace& place, Manifest& manifest) {
@@ -203,7 +203,8 @@ void read_option_sets(const JsonPlace& place, Manifest& manifest) {
   for (const JsonPlace& item : items) {
     manifest.options.push_back(read_options(manifest.path, item));
     const std::string& name = manifest.options.back().name;
-    if (name.empty() && items.size() > 1) throw item.error("needs a \"name\", since there are several");
+    if (name.empty() && items.size() > 1)
+      throw item.error("needs a \"name\", since there are several sets of options");
     check_once(item, names, name, "the name \"" + name + "\"");
   }
 }
@@ -236,19 +237,20 @@ Manifest read_manifest(const std::filesystem::path& path) {
 std::string describe_manifest() {
   return R"(A manifest is JSON. Every map is simulated with every relief, boundary and set of options:
   {
-    "maps": [                            heightmaps: files, named relative to the manifest, or shapes
+    "maps": [                            heightmaps: shapes, or files with paths relative to the manifest
       {"file": "bricks.png"},
       {"file": "dem.tif", "name": "sierra", "texel": [50, 50], "boundary": "open", "no_data": -9999},
       {"shape": "cobbles", "size": 512, "seed": 7}
     ],
-    "relief_shares": [0.03, 0.1, "own"], peak-to-valley heights over the width; "own": the map's ("own")
-    "boundaries": ["tile", "open"],      "own": the map's ("own")
-    "options": [                         as of simulate, with _ for -; a name where there are several
+    "relief_shares": [0.03, 0.1, "own"], reliefs as fractions of the width; "own" (default): that of the map
+    "boundaries": ["tile", "open"],      boundaries; "own" (default): that of the map
+    "options": [                         options of simulate, with _ for -; each set needs a name if there are several
       {"name": "walked", "error": 0.001, "bounces": 20, "bins": 100, "albedo": [0.6, 0.4, 0.3]},
       {"name": "cast", "visibility": "rays", "rays": 1000, "seed": 3, "save_bounces": true}
     ]
   }
-Only "maps" must be there. Maps also take "relief", "width", "part", "channel", "scale", "offset", "shrink" and "invert", as simulate does.
+Only "maps" is required. Maps also take "relief", "width", "part", "channel", "scale", "offset", "shrink" and
+"invert", as simulate does.
 )";
 }
 

@@ -25,7 +25,7 @@ std::optional<double> parse_number(const std::string& text) {
 
 double parse_length(const std::string& text, const std::string& whole) {
   const std::optional<double> value = parse_number(text);
-  if (!value) throw UsageError("texel", whole, "write one spacing (50) or two (70.8x92.6)");
+  if (!value) throw UsageError("texel", whole, "write one spacing, such as 50, or two, such as 70.8x92.6");
   return *value;
 }
 
@@ -41,7 +41,8 @@ Spacing parse_spacing(const std::string& text) {
 double parse_refraction(const std::string& text) {
   const std::optional<double> value = parse_number(text);
   if (!value || !(*value >= 0 && *value < 1))
-    throw UsageError("curvature", text, "write the coefficient of refraction, from 0 to below 1, or nothing");
+    throw UsageError("curvature", text,
+                     "must be the coefficient of refraction, from 0 to below 1, or be left out");
   return *value;
 }
 
@@ -75,7 +76,7 @@ void take_size(const std::string& text, bool spacing_is_given, LoadOptions& load
     return;
   }
   if (spacing_is_given)
-    throw UsageError("size", text, "is an extent, which --width or --texel gives already");
+    throw UsageError("size", text, "is an extent, but --width or --texel gives that already");
   load.width = extent->value;
 }
 
@@ -112,14 +113,18 @@ void add_map_options(CLI::App& command, MapOptions& options) {
 
 void add_load_options(CLI::App& command, LoadOptions& load) {
   auto* relief = command.add_option("--relief", load.relief,
-                                    "peak-to-valley height in world units (images: width / 10)");
+                                    "height from the lowest to the highest place, in world units (default "
+                                    "for images: a tenth of the width)");
   command
       .add_option_function<std::string>(
           "--height", [&load](const std::string& text) { load.relief = parse_height(text); },
-          "the same with its unit, such as 5cm; world units are metres then")
+          "height from the lowest to the highest place with its unit, such as 5cm; world units are then "
+          "metres")
       ->type_name("LENGTH")
       ->excludes(relief);
-  auto* width = command.add_option("--width", load.width, "extent of the columns in world units (1)");
+  auto* width =
+      command.add_option("--width", load.width,
+                         "width of the map, from its first to its last column, in world units (default 1)");
   auto* texel = command
                     .add_option_function<std::string>(
                         "--texel",
@@ -127,8 +132,8 @@ void add_load_options(CLI::App& command, LoadOptions& load) {
                           load.degrees_in_metres = text == "auto";
                           if (!load.degrees_in_metres) load.texel = parse_spacing(text);
                         },
-                        "spacing of samples in world units: S, or SXxSY; auto: metres, where the file tells "
-                        "it in degrees")
+                        "distance between samples in world units: S for both axes, or SXxSY; auto converts a "
+                        "spacing that the file gives in degrees into metres")
                     ->type_name("S|SXxSY|auto")
                     ->excludes(width);
   command
@@ -137,7 +142,8 @@ void add_load_options(CLI::App& command, LoadOptions& load) {
           [&load](const std::string& text) {
             load.boundary = text == "tile" ? Boundary::tile : Boundary::open;
           },
-          "tile: the map repeats (images' default); open: nothing beyond (Esri grids' default)")
+          "tile: the map repeats without end (default of images); open: there is nothing beyond its edges "
+          "(default of georeferenced files, such as GeoTIFF and Esri grids)")
       ->check(CLI::IsMember({"tile", "open"}));
   command
       .add_option_function<std::string>(
@@ -145,23 +151,30 @@ void add_load_options(CLI::App& command, LoadOptions& load) {
           [&load, width, texel](const std::string& text) {
             take_size(text, width->count() > 0 || texel->count() > 0, load);
           },
-          "columns and rows of raw samples: WxH; or the extent of the columns with its unit, such as 1m")
+          "WxH: columns and rows of a file of raw samples; LENGTH: width of the map with its unit, such as "
+          "1m")
       ->type_name("WxH|LENGTH");
-  command.add_flag("--big-endian", load.big_endian, "raw samples have their highest byte first");
-  command.add_option("--scale", load.scale, "height per stored value, world units: nothing is stretched");
-  command.add_option("--offset", load.offset, "height of a stored 0, world units (0)");
-  command.add_option("--no-data", load.no_data, "the stored value that means a missing sample");
-  command.add_option("--part", load.part, "part to read of an EXR that has several, by name or number");
-  command.add_option("--channel", load.channel, "channel to read, by name or number, where they differ");
+  command.add_flag("--big-endian", load.big_endian, "raw samples are stored with the highest byte first");
+  command.add_option("--scale", load.scale,
+                     "height of one stored unit in world units; heights are then not stretched to a relief");
+  command.add_option("--offset", load.offset,
+                     "height of a stored 0 in world units (default 0); excludes --relief");
+  command.add_option("--no-data", load.no_data, "stored value that marks a missing sample");
+  command.add_option("--part", load.part,
+                     "part to read from an EXR with several parts, by name or by number from 0");
+  command.add_option("--channel", load.channel,
+                     "channel to read, by name or by number from 0; needed where the channels differ");
   command
-      .add_option("--shrink", load.shrink, "take the mean of N × N samples for one, for a quicker look (1)")
+      .add_option("--shrink", load.shrink,
+                  "replace each block of N × N samples by its mean, for a quicker look (default 1)")
       ->type_name("N");
   command.add_flag("--invert", load.invert, "the file holds depths: its highest value is the lowest place");
   command
       .add_option_function<std::string>(
           "--curvature", [&load](const std::string& text) { load.curvature = parse_refraction(text); },
-          "lower heights by the Earth's curvature about the map's middle, with the refraction K (0.13); an "
-          "open map, world units in metres. It costs no time")
+          "lower the heights by the Earth's curvature around the middle of the map, with the coefficient of "
+          "refraction K, from 0 to below 1 (default 0.13); needs an open map and world units in metres; "
+          "takes no extra time")
       ->expected(0, 1)
       ->default_str(in_digits(kUsualRefraction))
       ->type_name("[K]");
@@ -169,22 +182,22 @@ void add_load_options(CLI::App& command, LoadOptions& load) {
 
 void add_resource_options(CLI::App& command, RunOptions& options) {
   command
-      .add_option(
-          "--threads", options.threads,
-          "threads to use (OMP_NUM_THREADS, or one per processor that is ours); results do not depend "
-          "on it")
+      .add_option("--threads", options.threads,
+                  "number of threads (default: OMP_NUM_THREADS, or one per processor that the process may "
+                  "use); results do not depend on it")
       ->check(CLI::Range(0, 4096));
   command
       .add_option_function<std::string>(
           "--memory", [&options](const std::string& text) { options.memory = parse_byte_size(text); },
-          "most memory that the process may take, code and all, such as 8G (four fifths of what is free)")
+          "most memory that the whole process may use, including its code, such as 8G (default: four fifths "
+          "of the free memory)")
       ->type_name("BYTES");
-  command.add_flag("--quiet", options.quiet, "no progress bar, no report");
+  command.add_flag("--quiet", options.quiet, "print no progress bar and no summary");
 }
 
 void add_run_options(CLI::App& command, RunOptions& options) {
   add_resource_options(command, options);
-  command.add_option("--seed", options.seed, "seed of every random choice (1)")->check(whole_number());
+  command.add_option("--seed", options.seed, "seed of all random choices (default 1)")->check(whole_number());
 }
 
 void apply_run_options(RunOptions& options) {

@@ -10,7 +10,7 @@ namespace heightlight {
 MemoryError with_program(const MemoryError& error, const RunOptions& run) {
   constexpr std::uint64_t kFromRunToRun = 4 << 20;  // what the program itself takes varies by
   const std::uint64_t enough = run.program_memory + run.memory + error.missing + kFromRunToRun;
-  return {error.what() + (", beside the " + format_byte_size(run.program_memory)) +
+  return {error.what() + (", in addition to the " + format_byte_size(run.program_memory)) +
               " that the program itself takes",
           error.missing, write_enough(enough)};
 }

@@ -45,10 +45,10 @@ std::size_t channel_index(const InputFile& file, const StoredImage& image, const
 StoredImage read_own_image(const InputFile& file, const Heightmap& map, std::uint64_t memory) {
   const FileFormat format = recognise_format(file);
   if (!is_picture(format))
-    throw file.error(std::string("is of the kind ") + to_string(format) + "; a pack takes images");
+    throw file.error(std::string("is of the kind ") + to_string(format) + "; a pack needs images");
   StoredImage image = read_image(file, format, memory);
   if (image.width != map.height.width || image.height != map.height.height)
-    throw file.error("has " + size_text(image.width, image.height) + " texels, the heightmap " +
+    throw file.error("has " + size_text(image.width, image.height) + " texels, but the heightmap has " +
                      size_text(map.height.width, map.height.height));
   return image;
 }

@@ -33,8 +33,9 @@ void check_taken(const std::vector<PackInput>& inputs) {
   }
   for (const PackInput& input : inputs) {
     if (input.is_taken || !input.file) continue;
-    throw UsageError("input", input.name,
-                     "no pack takes it" + (known.empty() ? std::string() : " (packs take " + known + ")"));
+    throw UsageError(
+        "input", input.name,
+        "is not used by any pack" + (known.empty() ? std::string() : " (packs take " + known + ")"));
   }
 }
 
@@ -61,30 +62,36 @@ void add_preset_packs(const Preset& preset, PackSources& sources, BakeOptions& o
 }  // namespace
 
 void add_pack_options(CLI::App& app, PackOptions& options) {
-  app.add_option(
-         "--format", options.format,
-         "png (default of materials), exr, tif (default of terrain: a GeoTIFF at the same place), or asc")
+  app.add_option("--format", options.format,
+                 "file format: png (default for materials), exr, tif (default for terrain: a GeoTIFF at the "
+                 "place of the map), or asc")
       ->check(CLI::IsMember({"png", "exr", "tif", "asc"}));
-  app.add_option("--depth", options.depth, "8, 16 (default), half or float (default of EXR and of terrain)")
+  app.add_option("--depth", options.depth,
+                 "type of the stored values: 8 or 16 bits (default 16), half or float (default for EXR and "
+                 "for terrain)")
       ->check(CLI::IsMember({"8", "16", "half", "float"}));
   app.add_option("--normal-y", options.normal_y,
-                 "opengl: y up the picture (default); directx: down. Of all maps with directions")
+                 "direction of y in all maps of directions; opengl: up the picture (default); directx: down "
+                 "the picture")
       ->check(CLI::IsMember({"opengl", "directx"}));
-  app.add_option(
-         "--pack", options.packs,
-         "one more file, NAME_packed or of a name before a colon, with channels of maps and of your own "
-         "files: R=ao,G=rough.png,B=metal.png:R; any number of times")
+  app.add_option("--pack", options.packs,
+                 "also write a file whose channels come from maps and from your own files, such as "
+                 "R=ao,G=rough.png,B=metal.png:R; NAME before a colon replaces 'packed' in the name of the "
+                 "file; may be repeated")
       ->allow_extra_args(false)
       ->type_name("[NAME:]R=MAP|FILE,…");
-  app.add_option("--preset", options.preset, "files as an engine has them (below)")->type_name("NAME");
-  app.add_option("--preset-file", options.preset_file, "presets of your own, in JSON")->type_name("FILE");
+  app.add_option("--preset", options.preset, "write the files that an engine expects; the list is below")
+      ->type_name("NAME");
+  app.add_option("--preset-file", options.preset_file, "JSON file with your own presets for --preset")
+      ->type_name("FILE");
   app.add_option("--input", options.inputs,
-                 "a file of your own for a preset or a pack, such as roughness=rough.png:G:srgb; {stem}, "
-                 "{material} and {folder} are those of the heightmap")
+                 "your own file for an input of a preset or a pack, such as roughness=rough.png:G:srgb; "
+                 "{stem}, {material} and {folder} stand for those of the heightmap; may be repeated")
       ->allow_extra_args(false)
       ->type_name("NAME=FILE[:CHANNEL][:srgb]");
   app.add_option("--name", options.name,
-                 "of files, with {stem}, {map} and {material}, the stem without _height ({stem}_{map})")
+                 "pattern of the names of files, with {stem}, {map} and {material}, which is the stem "
+                 "without _height (default {stem}_{map})")
       ->type_name("TEXT");
 }
 
@@ -99,7 +106,7 @@ void apply_pack_options(PackOptions& pack, BakeOptions& options) {
     set_default(pack.depth, preset.depth);
     set_default(pack.normal_y, preset.normal_y);
   } else if (!pack.preset_file.empty()) {
-    throw UsageError("preset_file", "", "wants --preset, the name of one of its presets");
+    throw UsageError("preset_file", "", "needs --preset with the name of one of its presets");
   }
   for (const std::string& input : pack.inputs) give_file(input, sources.inputs);
   add_preset_packs(preset, sources, options);

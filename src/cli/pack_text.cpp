@@ -56,7 +56,8 @@ std::size_t index_of(const FileText& file, const std::string& channel, std::vect
 std::vector<PackedChannel> channels_of(const FileText& file, std::size_t count,
                                        std::vector<OwnChannel>& own) {
   if (count > 1 && !file.channel.empty())
-    throw UsageError("pack", "", file.path + ":" + file.channel + " is one channel, for one letter");
+    throw UsageError("pack", "",
+                     file.path + ":" + file.channel + " is one channel and can only go to one letter");
   std::vector<PackedChannel> channels;
   for (std::size_t i = 0; i < count; ++i)
     channels.push_back({.own = index_of(file, count > 1 ? std::to_string(i) : file.channel, own)});
@@ -79,7 +80,7 @@ std::vector<PackedChannel> parse_source(const std::string& text, std::size_t cou
   }
   if (text.find_first_of("./") == std::string::npos)
     throw UsageError("pack", "",
-                     "'" + text + "' is no map, no file and no input (maps: " + known_material_maps() + ")");
+                     "'" + text + "' is not a map, a file or an input (maps: " + known_material_maps() + ")");
   return channels_of(parse_file_text("pack", text), count, sources.own);
 }
 
@@ -89,7 +90,7 @@ std::string take_name(std::string& text) {
   if (colon == std::string::npos || colon > text.find('=')) return "packed";
   std::string name = text.substr(0, colon);
   if (name.empty() || name.find('/') != std::string::npos)
-    throw UsageError("pack", text, "the name before the colon names no file");
+    throw UsageError("pack", text, "the name before the colon must not be empty nor contain /");
   text.erase(0, colon + 1);
   return name;
 }
@@ -105,7 +106,7 @@ FileText parse_file_text(const std::string& quantity, const std::string& text) {
   if (colon != std::string::npos && (folder == std::string::npos || folder < colon)) {
     file.channel = file.path.substr(colon + 1);
     file.path.resize(colon);
-    if (file.channel.empty()) throw UsageError(quantity, text, "names no channel behind the colon");
+    if (file.channel.empty()) throw UsageError(quantity, text, "names no channel after the colon");
   }
   if (file.path.empty()) throw UsageError(quantity, text, "names no file");
   fill_placeholders(quantity, file.path, {{"stem", ""}, {"material", ""}, {"folder", ""}});
@@ -130,12 +131,14 @@ PackedTexture parse_pack(const std::string& text, PackSources& sources) {
     const bool inverted = source.starts_with("1-");
     if (inverted) source.erase(0, 2);
     if (letters.empty() || letters.find_first_not_of(kLetters) != std::string::npos || source.empty())
-      throw UsageError("pack", text, "write it like R=ao,G=rough.png,B=normal.z, each of R, G, B, A once");
+      throw UsageError("pack", text,
+                       "must be like R=ao,G=rough.png,B=normal.z, with each of R, G, B, A at most once");
     const std::vector<PackedChannel> channels = parse_source(source, letters.size(), sources);
     for (std::size_t i = 0; i < letters.size(); ++i) {
       const std::size_t at = kLetters.find(letters[i]);
       if (given[at])
-        throw UsageError("pack", text, "write it like R=ao,G=rough.png,B=normal.z, each of R, G, B, A once");
+        throw UsageError("pack", text,
+                         "must be like R=ao,G=rough.png,B=normal.z, with each of R, G, B, A at most once");
       given[at] = channels[i];
       given[at]->is_inverted = inverted;
       count = std::max(count, at + 1);

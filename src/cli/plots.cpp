@@ -18,14 +18,14 @@ void check_picture(const std::filesystem::path& path) {
   const std::string begin = path.extension() == ".svg" ? "<?xml" : "\x89PNG\r\n";
   std::string bytes(begin.size(), '\0');
   std::ifstream(path, std::ios::binary).read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (bytes != begin) throw PlotError("plots need gnuplot, which drew no picture");
+  if (bytes != begin) throw PlotError("plots need gnuplot, but it drew no picture");
 }
 
 }  // namespace
 
 void Plots::give_up(const std::string& fault) {
   possible_ = false;
-  tell(fault + "; the results will lack their plots");
+  tell(fault + "; the results will have no plots");
 }
 
 void Plots::draw(StagedFolder& folder, const std::vector<std::string>& names,

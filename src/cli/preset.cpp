@@ -23,7 +23,7 @@ std::string one_of(const JsonPlace& place, const std::vector<std::string>& known
     if (word == text) return text;
     list += (list.empty() ? "\"" : ", \"") + word + "\"";
   }
-  throw place.error("\"" + text + "\" is not known here: known are " + list);
+  throw place.error("\"" + text + "\" is not allowed here; use one of " + list);
 }
 
 PackInput read_input(const std::string& name, const JsonPlace& stand_in) {

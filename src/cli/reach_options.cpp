@@ -11,7 +11,8 @@ double parse_distance(const std::string& quantity, const std::string& text, doub
   const double value = std::strtod(text.c_str(), &end);
   const std::string unit = end;
   if (end == text.c_str() || (!unit.empty() && unit != "%")) {
-    throw UsageError(quantity, text, "write a length in world units, or a share of the width (5%)");
+    throw UsageError(quantity, text,
+                     "must be a length in world units, or a percentage of the width, such as 5%");
   }
   return unit.empty() ? value : value / 100 * width;
 }

@@ -18,7 +18,7 @@ namespace {
 void check_shape(const std::filesystem::path& path, int width, int height, const Image<float>& heights) {
   const double own = static_cast<double>(heights.width) / heights.height;
   if (std::fabs(static_cast<double>(width) / height / own - 1) < 0.01) return;
-  throw file_error(path, fmt::format("is {} × {}, of another shape than the heightmap, which is {} × {}",
+  throw file_error(path, fmt::format("is {} × {}, which has other proportions than the heightmap of {} × {}",
                                      width, height, heights.width, heights.height));
 }
 
@@ -35,7 +35,7 @@ std::string describe(const std::filesystem::path& path, const ShippedMap& shippe
                                       : fmt::format("occlusion within {:.2g}", match.residual);
   return fmt::format("matched to {}: {} (root mean square), correlation {:.2f}{}",
                      printable(path.filename().string()), left, match.correlation,
-                     match.y_down ? "; its y points down, as --normal-y directx has it" : "");
+                     match.y_down ? "; its y points down, as with --normal-y directx" : "");
 }
 
 }  // namespace

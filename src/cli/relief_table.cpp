@@ -31,7 +31,7 @@ std::vector<std::string> fields_of(std::string_view line) {
 template <class MakeError>
 double parse_positive(const std::string& text, const MakeError& error) {
   const std::optional<Length> length = read_length(text);
-  if (!length) throw error("'" + text + "' is no length, such as 0.05 or 5cm");
+  if (!length) throw error("'" + text + "' is not a length, such as 0.05 or 5cm");
   if (!(length->value > 0)) throw error("'" + text + "' must be positive");
   return length->value;
 }
@@ -39,7 +39,7 @@ double parse_positive(const std::string& text, const MakeError& error) {
 template <class MakeError>
 NamedRelief parse_entry(const std::vector<std::string>& fields, const MakeError& error) {
   if (fields.size() < 2 || fields.size() > 3 || fields[0].empty())
-    throw error("write a name, a relief and perhaps a width");
+    throw error("must be a name, a relief and optionally a width");
   NamedRelief entry{.name = fields[0], .relief = parse_positive(fields[1], error)};
   if (fields.size() == 3) entry.width = parse_positive(fields[2], error);
   return entry;
@@ -49,7 +49,7 @@ template <class MakeError>
 void add_entry(std::vector<NamedRelief>& reliefs, NamedRelief entry, const MakeError& error) {
   const bool known = std::any_of(reliefs.begin(), reliefs.end(),
                                  [&](const NamedRelief& other) { return other.name == entry.name; });
-  if (known) throw error("'" + entry.name + "' stands there twice");
+  if (known) throw error("'" + entry.name + "' is given twice");
   reliefs.push_back(std::move(entry));
 }
 
@@ -59,7 +59,7 @@ std::vector<NamedRelief> read_given_reliefs(const std::string& text) {
   std::istringstream stream(text);
   for (std::string part; std::getline(stream, part, ',');) {
     const std::size_t equals = part.rfind('=');
-    if (equals == std::string::npos) throw UsageError("reliefs", text, "write it like brick=5cm,leather=1mm");
+    if (equals == std::string::npos) throw UsageError("reliefs", text, "must be like brick=5cm,leather=1mm");
     add_entry(reliefs,
               parse_entry({trimmed(part.substr(0, equals)), trimmed(part.substr(equals + 1))}, error), error);
   }
@@ -79,7 +79,7 @@ std::vector<NamedRelief> read_relief_file(const std::filesystem::path& path) {
     may_be_heading = false;
     if (!is_heading) add_entry(reliefs, parse_entry(fields, error), error);
   }
-  if (reliefs.empty()) throw file_error(path, "names no relief");
+  if (reliefs.empty()) throw file_error(path, "contains no reliefs");
   return reliefs;
 }
 

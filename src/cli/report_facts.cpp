@@ -69,10 +69,9 @@ void add_total_checks(const Evidence& evidence, std::vector<PageFact>& facts) {
 }  // namespace
 
 void add_report_option(CLI::App& command, bool& wanted) {
-  command.add_flag(
-      "--report", wanted,
-      "also write report.html: one file for any browser, with pictures that zoom and flip, curves, "
-      "tables and the evidence");
+  command.add_flag("--report", wanted,
+                   "also write report.html: one file for any browser, with pictures to zoom and to flip "
+                   "between, curves, tables and the evidence for the accuracy");
 }
 
 std::vector<PageFact> map_facts(const Heightmap& header, double relief, std::uint64_t missing) {

@@ -26,7 +26,7 @@ void refuse_foreign_file(const std::filesystem::path& path) {
   std::string begin(mark.size(), '\0');
   file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
   if (begin != mark)
-    throw OutputError(printable(path) + ": is there already, and was not written by heightlight shaders");
+    throw OutputError(printable(path) + ": exists already and was not written by heightlight shaders");
 }
 
 void write_libraries(const std::filesystem::path& folder_path) {
@@ -57,18 +57,21 @@ void list_functions() {
 }  // namespace
 
 void add_shaders_command(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("shaders", "Every formula as functions of GLSL, HLSL, WGSL and Godot shaders");
+  CLI::App* command = app.add_subcommand(
+      "shaders", "Write every formula as functions for GLSL, HLSL, WGSL and Godot shaders");
   auto folder = std::make_shared<std::filesystem::path>();
-  command->add_option("-o,--output", *folder, "folder for the files; without it, the functions are listed")
+  command
+      ->add_option("-o,--output", *folder,
+                   "folder for the files; without this option, the functions are listed")
       ->type_name("DIR");
   command->footer(
-      "Writes heightlight.glsl, heightlight.hlsl, heightlight.wgsl and heightlight.gdshaderinc: a file holds "
-      "all\n"
-      "functions, which share parts; compilers leave out what is not called. A file of such a name that "
-      "this\n"
-      "command did not write stays, and nothing is written. docs/shaders.md tells which function is for "
-      "what.\n"
+      "Writes heightlight.glsl, heightlight.hlsl, heightlight.wgsl and heightlight.gdshaderinc. Each file "
+      "holds all\n"
+      "functions, since they share parts; compilers leave out functions that are not called. If a file of "
+      "such a\n"
+      "name exists that this command did not write, nothing is written. docs/shaders.md says what each "
+      "function\n"
+      "is for.\n"
       "Examples:\n"
       "  heightlight shaders\n"
       "  heightlight shaders -o engine/shaders");

@@ -17,7 +17,7 @@ Shard parse_shard(const std::string& text) {
     is_whole = count.ec == std::errc() && count.ptr == end;
   }
   if (!is_whole || shard.number < 1 || shard.number > shard.count)
-    throw UsageError("shard", text, "must be K/N, share K of N, with K from 1 to N");
+    throw UsageError("shard", text, "must be K/N with K from 1 to N");
   return shard;
 }
 

@@ -96,31 +96,37 @@ void simulate(SimulateOptions& options, bool json) {
 }  // namespace
 
 void add_simulate_command(CLI::App& app) {
-  auto* command =
-      app.add_subcommand("simulate", "AO, sky view factor, links, bounces, curves and plots of a heightmap");
+  auto* command = app.add_subcommand(
+      "simulate", "Compute AO, sky view factor, links, bounces, curves and plots of a heightmap");
   auto options = std::make_shared<SimulateOptions>();
   add_map_options(*command, options->map);
   command->add_option("-o,--output", options->folder, "folder for the results")->type_name("DIR")->required();
   add_visibility_options(*command, options->visibility);
-  command->add_option("--bounces", options->bounces, "bounces to keep apart; the rest is the tail (20)");
+  command->add_option("--bounces", options->bounces,
+                      "number of bounces to store separately, 1 to 1000 (default 20); all later bounces "
+                      "together are the tail");
   command
       ->add_option("--albedo", options->albedo,
-                   "of the total: a number, R,G,B, or an image of the map's size (0.5)")
+                   "albedo for the total irradiance: a number, R,G,B, or an image of the size of the map "
+                   "(default 0.5)")
       ->type_name("R|R,G,B|FILE");
   add_light_options(*command, options->light);
-  command->add_option("--bins", options->bins, "AO bins of the curves (100)");
+  command->add_option("--bins", options->bins, "number of AO bins of the curves, 1 to 10000 (default 100)");
   command->add_flag("--save-bounces", options->save_bounces,
                     "also write irradiance_00.exr, irradiance_01.exr, …");
   command->add_flag("--save-links", options->save_links,
-                    "with rays or --error 0: also write links.npz, the form factors as scipy.sparse.load_npz "
-                    "reads them");
+                    "also write links.npz, the form factors as scipy.sparse.load_npz reads them; needs "
+                    "--visibility rays or --error 0");
   command
       ->add_option("--obscurance", options->obscurance,
-                   "with rays or --error 0: also write obscurance.exr and ambient_transfer.exr (Umenhoffer "
-                   "et al. 2009, eqs. 5 and "
-                   "6),\nof occluders nearer than that, in world units or percent of the width")
+                   "also write obscurance.exr and ambient_transfer.exr (Umenhoffer et al. 2009, eqs. 5 and "
+                   "6), for which occluders count up to this distance, in world units or percent of the "
+                   "width; needs --visibility rays or --error 0")
       ->type_name("D|P%");
-  command->add_option("--falloff", options->falloff, "of them: none, linear, sqrt (default) or exponential")
+  command
+      ->add_option("--falloff", options->falloff,
+                   "how occluders lose weight with distance for --obscurance: none, linear, sqrt (default) "
+                   "or exponential")
       ->check(CLI::IsMember(falloff_names()));
   add_report_option(*command, options->report);
   add_run_options(*command, options->run);
@@ -131,7 +137,8 @@ void add_simulate_command(CLI::App& app) {
       "  heightlight simulate brick.png -o brick                         a tiling material, relief a tenth "
       "of its width\n"
       "  heightlight simulate rock.exr -o rock --relief 0.3 --albedo 0.6,0.4,0.3\n"
-      "  heightlight simulate dem.tif -o dem                             terrain, as its file tells of it\n"
+      "  heightlight simulate dem.tif -o dem                             terrain, with the spacing and "
+      "heights that the file gives\n"
       "  heightlight simulate dem.tif -o dem --sun 135,30 --albedo 0.9   sun on snow");
   command->callback([options, json] { simulate(*options, *json); });
 }

@@ -21,7 +21,8 @@ struct TableOptions {
 
 void run_specular_table(TableOptions& options) {
   constexpr int kArguments = 10000;
-  if (options.file.extension() != ".ktx") throw UsageError(options.file.string() + ": name a .ktx to write");
+  if (options.file.extension() != ".ktx")
+    throw UsageError(options.file.string() + ": the output must be a .ktx");
   apply_run_options(options.run);
   const Watch watch = terminal_watch(options.run.quiet);
   StagedFile file(options.file);
@@ -41,16 +42,19 @@ void add_specular_table_command(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("specular-table", "Make the table of specular occlusion that GTSO looks up");
   auto options = std::make_shared<TableOptions>();
-  command->add_option("-o,--output", options->file, "file to write: .ktx, a 3D texture of 8 bits")
+  command->add_option("-o,--output", options->file, "file to write: a .ktx with a 3D texture of 8 bits")
       ->required()
       ->type_name("FILE");
-  command->add_option("--side", options->side,
-                      "values along each of the four axes, a multiple of 4 from 4 to 64 (16)");
+  command->add_option(
+      "--side", options->side,
+      "number of values along each of the four axes, a multiple of 4 from 4 to 64 (default 16)");
   add_run_options(*command, options->run);
   command->footer(
-      "What a glossy lobe (GGX, reflectance 0.04) sees of a cone of openness, by the cone's half-angle, its\n"
-      "axis' angle to the mirrored view, roughness, and the view's angle. The texture says in words how it\n"
-      "is laid out; heightlight bake writes the shader that looks it up.\n"
+      "The table holds the fraction of a glossy lobe (GGX, reflectance 0.04) that lies in a cone of open\n"
+      "directions, by the half-angle of the cone, the angle between its axis and the mirrored view, the\n"
+      "roughness, and the angle of the view. The metadata of the texture describe its layout; heightlight "
+      "bake\n"
+      "writes the shader that looks it up.\n"
       "Example:\n"
       "  heightlight specular-table -o gtso.ktx --side 32");
   command->callback([options] { run_specular_table(*options); });

@@ -58,7 +58,8 @@ void write_tiled(const std::filesystem::path& path, const SynthOptions& options)
 void run_synth(const SynthOptions& options) {
   const std::string extension = lower_case_extension(options.file);
   if (extension != ".png" && extension != ".exr" && extension != ".tif") {
-    throw UsageError(options.file.string() + ": name a .png (16 bits), an .exr or a .tif (float) to write");
+    throw UsageError(options.file.string() +
+                     ": the output must be a .png (16 bits), an .exr or a .tif (float)");
   }
   StagedFile file(options.file);
   if (extension == ".tif") {
@@ -92,17 +93,18 @@ void add_synth_command(CLI::App& app) {
   command->add_option("-o,--output", options->file, "file to write: .png (16 bits), .exr or .tif (float)")
       ->required()
       ->type_name("FILE");
-  command->add_option("--size", options->size, "texels on each side (512)");
-  command->add_option("--seed", options->seed, "seed of fbm, cobbles, brick and concrete (1)")
+  command->add_option("--size", options->size, "number of texels on each side (default 512)");
+  command->add_option("--seed", options->seed, "seed of fbm, cobbles, brick and concrete (default 1)")
       ->check(whole_number());
-  command->footer(
-      describe_shapes() +
-      "Heights run from 0 to 1. Of a .png, other commands stretch them to the relief; of an .exr or a .tif\n"
-      "they stay as they are, so that --width 4 makes the bowl a true spherical cap. A .tif has tiles, and\n"
-      "fbm is made into it row by row: memory need not hold it.\n"
-      "Examples:\n"
-      "  heightlight synth brick -o wall.png --size 1024 --seed 7\n"
-      "  heightlight synth bowl -o bowl.exr --size 256");
+  command->footer(describe_shapes() +
+                  "Heights run from 0 to 1. Other commands stretch the heights of a .png to the relief, but "
+                  "take those of an\n"
+                  ".exr or a .tif as they are, so that --width 4 makes the bowl a true spherical cap. A .tif "
+                  "is written in\n"
+                  "tiles, and fbm is written into it row by row, so that it need not fit in memory.\n"
+                  "Examples:\n"
+                  "  heightlight synth brick -o wall.png --size 1024 --seed 7\n"
+                  "  heightlight synth bowl -o bowl.exr --size 256");
   command->callback([options] { run_synth(*options); });
 }
 

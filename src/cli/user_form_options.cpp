@@ -4,14 +4,15 @@ namespace heightlight {
 
 void add_user_form_options(CLI::App& command, UserFormOptions& options) {
   command
-      .add_option(
-          "--form", options.forms,
-          "a form of your own, of E/pi: 'NAME = EXPRESSION' in A, alpha, n (the mean A of what is seen) "
-          "and rho,\nwith GLSL's functions, or ^; other letters are constants, which are fitted; again "
-          "for another form")
+      .add_option("--form", options.forms,
+                  "your own closed form of E/pi: 'NAME = EXPRESSION' in A, alpha, n (the mean A of what is "
+                  "seen) and rho,\n"
+                  "with the functions of GLSL and ^; other names are constants to be fitted; may be repeated")
       ->type_name("TEXT")
       ->allow_extra_args(false);
-  command.add_option("--forms", options.file, "a file of such forms, one a line; # begins a remark")
+  command
+      .add_option("--forms", options.file,
+                  "file of your own closed forms, one per line, written as for --form; # begins a comment")
       ->type_name("FILE");
 }
 

@@ -15,23 +15,27 @@ constexpr double kDefaultError = 0.002;
 void add_visibility_options(CLI::App& command, VisibilityOptions& options) {
   command
       .add_option("--visibility", options.method,
-                  "horizon: walks along azimuths, the fast way (default); rays: the reference")
+                  "method to find visibility; horizon: walks along azimuths, fast (default); rays: the "
+                  "slower reference method")
       ->check(CLI::IsMember({"horizon", "rays"}));
-  command.add_option(
-      "--error", options.error,
-      "RMSE wanted of the sky view factor and of the total (0.002); 0: exact slices, far slower");
+  command.add_option("--error", options.error,
+                     "wanted RMSE of the sky view factor and of the total irradiance, from 0 to 1 (default "
+                     "0.002); 0 selects exact slices, which are far slower");
   command.add_option("--azimuths", options.azimuths,
-                     "azimuths of the sky, an even number (chosen for --error)");
-  command.add_option("--rays", options.rays, "rays per texel, 1 to 65536 (300); means --visibility rays");
+                     "number of azimuths of the sky, even, 2 to 65536 (default: as many as --error needs)");
+  command.add_option("--rays", options.rays,
+                     "rays per texel, 1 to 65536 (default 300); implies --visibility rays");
 }
 
 void check_visibility_options(const VisibilityOptions& options) {
   if (options.method == "horizon" && options.rays) {
-    throw UsageError("rays", "", "horizon walks send none; leave it out, or choose --visibility rays");
+    throw UsageError("rays", "",
+                     "is not used by --visibility horizon; leave it out, or choose --visibility rays");
   }
   if (options.by_rays()) {
-    if (options.azimuths) throw UsageError("azimuths", "", "rays have none; use --rays");
-    if (options.error) throw UsageError("error", "", "rays do not aim at one; use --rays");
+    if (options.azimuths)
+      throw UsageError("azimuths", "", "is not used by --visibility rays; set --rays instead");
+    if (options.error) throw UsageError("error", "", "is not used by --visibility rays; set --rays instead");
     check_ray_options({.rays = options.rays.value_or(kDefaultRays)});
     return;
   }

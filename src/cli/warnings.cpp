@@ -22,7 +22,7 @@ void report_removed(const std::vector<std::string>& names) {
   if (names.empty()) return;
   std::string list;
   for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-  fmt::print("removed what an earlier result had and this one has not: {}\n", printable(list));
+  fmt::print("removed files of an earlier result that this one does not have: {}\n", printable(list));
 }
 
 }  // namespace heightlight

@@ -110,7 +110,7 @@ TEST_CASE("bad input gets one line that names it, and leaves no file behind", "[
       Case{"simulate map.png -o out --texel 1e-45", 2, "--texel", "1e-12"},
       Case{"compare map.png -o out --relief 1e40", 2, "--relief", "1e12"},
       Case{"simulate map.png -o out --no-data inf", 2, "--no-data", "missing anyway"},
-      Case{"simulat map.png -o out", 2, "simulat", "known are simulate"},
+      Case{"simulat map.png -o out", 2, "simulat", "the commands are simulate"},
       Case{"bake map.png -o out --format gif", 2, "--format", "gif"},
       Case{"info missing.png", 1, "missing.png", "no such file"},
       Case{"synth dodecahedron -o d.png", 2, "dodecahedron", "brick"},

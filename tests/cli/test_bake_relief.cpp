@@ -58,9 +58,9 @@ TEST_CASE("reliefs that make no sense are told with their place", "[cli][bake]")
     CHECK_FALSE(std::filesystem::exists(folder / "out"));
   };
   refused("--reliefs bad.txt", "bad.txt: line 2: 'tall'", 1);
-  refused("--reliefs twice.txt", "twice.txt: line 3: 'fbm' stands there twice", 1);
+  refused("--reliefs twice.txt", "twice.txt: line 3: 'fbm' is given twice", 1);
   refused("--reliefs minus.csv", "minus.csv: line 1: '-1cm' must be positive", 1);
-  refused("--reliefs empty.txt", "empty.txt: names no relief", 1);
+  refused("--reliefs empty.txt", "empty.txt: contains no reliefs", 1);
   refused("--reliefs nofile", "nofile", 1);
   refused("--reliefs fbm=x", "--reliefs: 'x'", 2);
   refused("--height 5cn", "--height 5cn", 2);

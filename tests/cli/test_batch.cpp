@@ -78,7 +78,8 @@ TEST_CASE("of a material's folder only the heights are baked, unless a pattern s
   const CommandResult run = run_command("bake m -o out --maps normal --quiet", folder);
   INFO(run.error);
   CHECK(run.exit_code == 0);
-  CHECK_THAT(run.error, Contains("4 files are no heights by their names") && Contains("--pattern"));
+  CHECK_THAT(run.error, Contains("4 files were left out, since they are named like other kinds of maps") &&
+                            Contains("--pattern"));
   CHECK(fs::exists(folder / "out/Rock003_2K_Displacement_normal.png"));
   CHECK(fs::exists(folder / "out/plaster_normal.png"));
   CHECK_FALSE(fs::exists(folder / "out/Rock003_2K_Color_normal.png"));

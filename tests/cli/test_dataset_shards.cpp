@@ -258,9 +258,9 @@ TEST_CASE("a folder of another version, manifest or kind is not merged", "[cli][
   run_dataset(folder, dataset_words("made", {"--shard", "1/1"}));
   const std::string origin = read_text(folder / "made/origin.json");
   const auto [fault, message] = GENERATE(
-      std::pair{"version", "made: was made by version \"old\", and this is "},
-      std::pair{"manifest", "made: was made from another manifest than what study.json holds"},
-      std::pair{"unknown", "made: is no folder of a dataset: it has no origin.json"},
+      std::pair{"version", "made: was made by version \"old\", but this is version "},
+      std::pair{"manifest", "made: was made from a manifest other than the current study.json"},
+      std::pair{"unknown", "made: is not the folder of a dataset: it has no origin.json"},
       std::pair{"damaged", "made/origin.json: parse error"},
       std::pair{"odd", "made: was made by version \"\""}, std::pair{"absent", "made: no such folder"});
   const std::string what = fault;
@@ -293,8 +293,8 @@ TEST_CASE("shards and merges that make no sense are wrong usage", "[cli][dataset
       std::pair{"--shard 1/2/3", "--shard 1/2/3: must be K/N"},
       std::pair{"--shard -1/4", "--shard -1/4: must be K/N"},
       std::pair{"--shard 1/99999999999999999999", "must be K/N"},
-      std::pair{"--shard 1/4 --merge", "--shard 1/4: cannot be together with --merge"},
-      std::pair{"elsewhere", "elsewhere: only --merge takes in the runs of other folders"});
+      std::pair{"--shard 1/4 --merge", "--shard 1/4: cannot be combined with --merge"},
+      std::pair{"elsewhere", "elsewhere: runs of other folders can only be taken in with --merge"});
   const CommandResult result = run_command("dataset study.json -o out " + std::string(arguments), folder);
   CHECK(result.exit_code == 2);
   CHECK_THAT(result.error, Catch::StartsWith("heightlight: ") && Contains(message));

@@ -129,14 +129,14 @@ TEST_CASE("a wrong file of options is told in one line that names it", "[cli]") 
   REQUIRE(run_command("synth brick -o brick.png --size 16", folder).exit_code == 0);
   const std::vector<std::pair<std::string, std::string>> faults{
       {"[bake]\nreleif = 0.1\n", "line 2: bake has no option 'releif'"},
-      {"relief = 0.1\n", "line 1: 'relief' stands in no section"},
+      {"relief = 0.1\n", "line 1: 'relief' is in no section"},
       {"[brake]\n", "line 1: there is no command 'brake'"},
       {"[simulate]\nmaps = 1\n", "line 2: simulate has no option 'maps'"},
-      {"[bake]\nmaps = ao,normal\n", "line 2: ',normal' is too much"},
-      {"[bake]\nmaps = \"ao\n", "line 2: a quote is open"},
+      {"[bake]\nmaps = ao,normal\n", "line 2: ',normal' is not expected here"},
+      {"[bake]\nmaps = \"ao\n", "line 2: a quoted text has no closing quote"},
       {"[bake]\nrelief\n", "line 2: there is no '=' after 'relief'"},
       {"[bake]\nconfig = \"other.toml\"\n", "line 2: bake has no option 'config'"},
-      {"[bake]\nrelief = 0.1\nrelief = 0.2\n", "line 3: 'relief' stands twice in bake"},
+      {"[bake]\nrelief = 0.1\nrelief = 0.2\n", "line 3: 'relief' is given twice in section bake"},
       {"[bake]\nrelief = tall\n", "wrong.toml"}};
   for (const auto& [text, fault] : faults) {
     write_text(folder / "wrong.toml", text);

@@ -71,7 +71,7 @@ TEST_CASE("lights that cannot be are refused in a line, and nothing is written",
     const char* fault;
   };
   const WrongLight wrong =
-      GENERATE(values<WrongLight>({{"--sun 120", 2, "--sun 120: write azimuth and elevation"},
+      GENERATE(values<WrongLight>({{"--sun 120", 2, "--sun 120: must be azimuth and elevation"},
                                    {"--sun 120,91", 2, "--sun: must stand above the horizontal"},
                                    {"--sun 120,30 --sky overcast", 2, "excludes"},
                                    {"--sky none.exr", 1, "none.exr: no such file"},

@@ -152,18 +152,19 @@ TEST_CASE("packs that make no sense are refused in one line, and nothing is writ
     const char* told;
   };
   const Fault fault = GENERATE(
-      Fault{"--pack R=ao,G=small.png", 1, "small.png: has 16 × 32 texels, the heightmap 32 × 32"},
+      Fault{"--pack R=ao,G=small.png", 1, "small.png: has 16 × 32 texels, but the heightmap has 32 × 32"},
       Fault{"--pack R=ao,G=none.png", 1, "none.png: no such file"},
       Fault{"--pack R=ao,G=bright.exr", 1, "bright.exr: has samples outside [0, 1]"},
       Fault{"--pack R=ao,G=rgb.png", 1, "rgb.png: its channels R, G, B differ"},
       Fault{"--pack R=ao,G=rgb.png:Z", 2, "rgb.png: has no channel 'Z'"},
-      Fault{"--pack R=ao,G=rgb.png:", 2, "no channel behind the colon"},
+      Fault{"--pack R=ao,G=rgb.png:", 2, "no channel after the colon"},
       Fault{"--pack RG=rgb.png:R", 2, "one channel"}, Fault{"--pack R=ao,G=shiny", 2, "'shiny'"},
       Fault{"--pack R=ao,G={name}.png", 2, "no placeholder {name}"},
-      Fault{"--pack R=ao,G={stem", 2, "'{stem' is no map"}, Fault{"--pack R=ao,G={stem.png", 2, "not closed"},
-      Fault{"--pack RGB=ao", 2, "no component 1"}, Fault{"--pack X=ao", 2, "--pack X=ao"},
-      Fault{"--pack R", 2, "--pack R"}, Fault{"--pack R=ao,G=1.5", 2, "1.5 is not in [0, 1]"},
-      Fault{"--pack a/b:R=ao", 2, "names no file"},
+      Fault{"--pack R=ao,G={stem", 2, "'{stem' is not a map"},
+      Fault{"--pack R=ao,G={stem.png", 2, "not closed"}, Fault{"--pack RGB=ao", 2, "no component 1"},
+      Fault{"--pack X=ao", 2, "--pack X=ao"}, Fault{"--pack R", 2, "--pack R"},
+      Fault{"--pack R=ao,G=1.5", 2, "1.5 is not in [0, 1]"},
+      Fault{"--pack a/b:R=ao", 2, "must not be empty nor contain"},
       Fault{"--pack R=ao --pack G=ao", 2, "two files would be called brick_height_packed.png"},
       Fault{"--pack ao:R=ao --maps ao", 2, "two files would be called brick_height_ao.png"},
       Fault{"--maps ao,normal --name {stem}", 2, "two files would be called brick_height.png"},
@@ -171,7 +172,7 @@ TEST_CASE("packs that make no sense are refused in one line, and nothing is writ
       Fault{"--maps ao --name {map}/{stem}", 2, "files cannot be called ao/brick_height.png"},
       Fault{"brick_rough.png --maps ao --name {map}", 2,
             "files of brick_height.png and brick_rough.png would both be called ao.png"},
-      Fault{"--pack R=ao --input rough=brick_rough.png", 2, "--input rough: no pack takes it"},
+      Fault{"--pack R=ao --input rough=brick_rough.png", 2, "--input rough: is not used by any pack"},
       Fault{"--pack R=ao,G=rough --input rough", 2, "NAME=FILE"});
   INFO(fault.arguments);
   const CommandResult run =

@@ -61,8 +61,8 @@ TEST_CASE("without gnuplot, results lack their plots and nothing else", "[cli][d
   CHECK_FALSE(fs::exists(folder / "out/pareto.png"));
   const std::string error = command.error_output();
   std::size_t told = 0;
-  for (std::size_t at = error.find("lack their plots"); at != std::string::npos;
-       at = error.find("lack their plots", at + 1)) {
+  for (std::size_t at = error.find("have no plots"); at != std::string::npos;
+       at = error.find("have no plots", at + 1)) {
     ++told;
   }
   CHECK(told == 1);

@@ -38,7 +38,7 @@ TEST_CASE("shaders leave files of other people's alone", "[shaders]") {
   CHECK(refused.exit_code == 1);
   CHECK(refused.out.empty());
   CHECK(refused.error ==
-        "heightlight: ./heightlight.wgsl: is there already, and was not written by heightlight shaders\n");
+        "heightlight: ./heightlight.wgsl: exists already and was not written by heightlight shaders\n");
   CHECK(folder.entry_count() == 1);
   CHECK(read_text(folder / "heightlight.wgsl") == "fn mine() {}\n");
 }

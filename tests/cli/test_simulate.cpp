@@ -27,8 +27,8 @@ TEST_CASE("simulate writes obscurance and ambient transfer from links, and refus
     CHECK(std::filesystem::file_size(folder / name) > 1000);
   for (const auto& [options, fault] :
        {std::pair{"--obscurance 20%", "--obscurance: needs --visibility rays or --error 0"},
-        std::pair{"--rays 8 --obscurance 60%", "passes half of a map that tiles"},
-        std::pair{"--rays 8 --obscurance near", "write a length in world units"},
+        std::pair{"--rays 8 --obscurance 60%", "is more than half of the shorter side of a map that tiles"},
+        std::pair{"--rays 8 --obscurance near", "must be a length in world units"},
         std::pair{"--rays 8 --obscurance -1", "must be positive"}}) {
     const CommandResult refused =
         run_command(std::string("simulate map.png -o no --bounces 2 ") + options, folder);

@@ -52,9 +52,9 @@ TEST_CASE("info says what bake takes a map for", "[cli][terrain]") {
       << "ncols 3\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 10\n1 2 3\n4 6 5\n";
   REQUIRE(run_command("synth fbm -o hill.exr --size 16", folder).exit_code == 0);
   const auto [map, kind] = GENERATE(
-      table<std::string, std::string>({{"hill.asc", "terrain: its file tells"},
-                                       {"hill.asc --boundary tile", "material: it is to tile"},
-                                       {"hill.exr", "material: its file tells no"},
+      table<std::string, std::string>({{"hill.asc", "terrain: its file gives"},
+                                       {"hill.asc --boundary tile", "material: the map tiles"},
+                                       {"hill.exr", "material: its file gives no"},
                                        {"hill.exr --texel 5 --boundary open", "terrain: a distance"}}));
   INFO(map);
   CHECK(run_command("info " + map, folder).out.find("kind       " + kind) != std::string::npos);
