@@ -55,7 +55,7 @@ void add_map_content_options(CLI::App& app, BakeCommand& command) {
       ->type_name("D|P%");
   app.add_option(
       "--midlevel", options.midlevel,
-      "height at which displacement is 0, from 0 (the lowest place) to 1 (the highest place) (default 0.5)");
+      "height at which displacement is 0, from 0 (lowest place) to 1 (highest place), default 0.5");
   app.add_option_function<std::string>(
          "--displacement-unit",
          [&options](const std::string& text) {

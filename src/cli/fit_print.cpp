@@ -96,10 +96,10 @@ void print_report(const FitReport& report) {
   for (const std::string& reason : explain_distances(report)) fmt::print("{}\n", reason);
   print_bounce_fits(report.bounce_fits);
   print_ratios(report.ratios);
-  const std::string left_out = report.trial.materials > 1
-                                   ? "each of " + std::to_string(report.trial.materials) +
-                                         " materials judged by what was fitted without it"
-                                   : "one material: judged on what was fitted to";
+  const std::string left_out =
+      report.trial.materials > 1
+          ? "each of " + std::to_string(report.trial.materials) + " materials judged with a fit to the others"
+          : "one material: judged on the maps that were fitted";
   print_errors(("RMS of E/π per texel, " + left_out).c_str(), report.trial.per_texel);
   print_floors(report.floors);
   print_errors("the same on maps that their samples resolve", report.trial.per_texel_resolved);

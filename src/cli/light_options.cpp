@@ -61,8 +61,8 @@ DirectIrradiance light_of_sky(const std::string& name, const Surface& surface, c
   const SkyLight sky = is_overcast ? overcast_sky() : normalised(load_sky_light(name, limits.memory));
   const std::uint64_t needed = sky_irradiance_bytes(surface, sky);
   if (needed > limits.memory)
-    throw MemoryError("the light of a sky needs " + format_byte_size(needed) + ", more than the " +
-                          format_byte_size(limits.memory) + " of memory allowed",
+    throw MemoryError("the direct irradiance of a sky needs " + format_byte_size(needed) +
+                          ", more than the " + format_byte_size(limits.memory) + " of memory allowed",
                       needed - limits.memory);
   SkyIrradiance found =
       sky_irradiance(surface, sky, {.error = limits.error, .seed = limits.seed, .watch = limits.watch});

@@ -244,7 +244,7 @@ std::string describe_manifest() {
     ],
     "relief_shares": [0.03, 0.1, "own"], reliefs as fractions of the width; "own" (default): that of the map
     "boundaries": ["tile", "open"],      boundaries; "own" (default): that of the map
-    "options": [                         options of simulate, with _ for -; each set needs a name if there are several
+    "options": [                         options of simulate, with _ for -; several sets need names
       {"name": "walked", "error": 0.001, "bounces": 20, "bins": 100, "albedo": [0.6, 0.4, 0.3]},
       {"name": "cast", "visibility": "rays", "rays": 1000, "seed": 3, "save_bounces": true}
     ]

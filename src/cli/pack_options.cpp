@@ -67,8 +67,8 @@ void add_pack_options(CLI::App& app, PackOptions& options) {
                  "place of the map), or asc")
       ->check(CLI::IsMember({"png", "exr", "tif", "asc"}));
   app.add_option("--depth", options.depth,
-                 "type of the stored values: 8 or 16 bits (default 16), half or float (default for EXR and "
-                 "for terrain)")
+                 "type of the stored values: 8 or 16 bits (default 16), half, or float (default for exr, asc "
+                 "and the tif of terrain)")
       ->check(CLI::IsMember({"8", "16", "half", "float"}));
   app.add_option("--normal-y", options.normal_y,
                  "direction of y in all maps of directions; opengl: up the picture (default); directx: down "

@@ -137,8 +137,8 @@ void add_simulate_command(CLI::App& app) {
       "  heightlight simulate brick.png -o brick                         a tiling material, relief a tenth "
       "of its width\n"
       "  heightlight simulate rock.exr -o rock --relief 0.3 --albedo 0.6,0.4,0.3\n"
-      "  heightlight simulate dem.tif -o dem                             terrain, with the spacing and "
-      "heights that the file gives\n"
+      "  heightlight simulate dem.tif -o dem                             terrain, spacing and heights from "
+      "its file\n"
       "  heightlight simulate dem.tif -o dem --sun 135,30 --albedo 0.9   sun on snow");
   command->callback([options, json] { simulate(*options, *json); });
 }
