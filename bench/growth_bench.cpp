@@ -146,10 +146,11 @@ Growth measure_apart(const Options& options, const std::string& map, int size) {
 
 void print_head(const Options& options) {
   std::printf(
-      "fixed walk: core-ns per texel and azimuth, %d azimuths, fineness %d\n"
+      "fixed walk: core-ns per texel and azimuth, %d azimuths, %d samples per octave\n"
       "the rest: sky and totals at albedo %g, planned for an error of %g; core-seconds\n"
       "others: processors that other programs kept busy meanwhile; wall times suffer from them\n"
-      "B/texel: peak of memory; sky, walks: azimuths and fineness of the sky and of the last two gathers\n"
+      "B/texel: peak of memory; sky, walks: azimuths and samples per octave of the sky and of the last two "
+      "gathers\n"
       "RMSE: by exact walks\n"
       "%-6s %6s %6s %7s %7s %7s %7s %8s %8s %6s %8s %8s %-8s %-8s %7s %8s %8s\n",
       kFixedWalk.azimuths, kFixedWalk.samples_per_octave, kAlbedo, options.error, "map", "size", "fixed",

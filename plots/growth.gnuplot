@@ -28,7 +28,7 @@ set xlabel 'texels'
 set multiplot layout 2,2 margins 0.08, 0.98, 0.08, 0.9 spacing 0.1, 0.15 \
   title 'How time, memory and error grow with the map (relief a tenth of its width)'
 
-set title 'Sky by a fixed walk: 32 azimuths, fineness 16'
+set title 'Sky by a fixed walk: 32 azimuths, 16 samples per octave'
 set ylabel 'core-ns per texel and azimuth'
 set yrange [0:18]
 set key bottom left
