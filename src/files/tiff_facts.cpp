@@ -170,8 +170,8 @@ void check_tiff_blocks(const InputFile& file) {
   const bool tiled = TIFFIsTiled(tiff.get()) != 0;
   const std::uint32_t blocks = tiled ? TIFFNumberOfTiles(tiff.get()) : TIFFNumberOfStrips(tiff.get());
   const auto whole = static_cast<std::uint64_t>(tiled ? TIFFTileSize(tiff.get()) : TIFFStripSize(tiff.get()));
-  constexpr std::uint64_t kBlockSlack =
-      1 << 16;  // a compressed block is at most twice as large as its content
+  constexpr std::uint64_t kBlockSlack = 1
+                                        << 16;  // a compressed block is at most twice as large as its content
   for (std::uint32_t block = 0; block < blocks; ++block) {
     throw_if_interrupted();
     const std::uint64_t begin = TIFFGetStrileOffset(tiff.get(), block);
