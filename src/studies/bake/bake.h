@@ -25,7 +25,7 @@ enum class MaterialMap {
   multibounce,  ///< E/π of all bounces, at the albedo, under a sky of radiance 1, or BakeOptions::find_light
   direct,       ///< E₀/π of that light, before any bounce
   bent_normal,  ///< unit, along ∫ V ω cosθ dω
-  bent_cone,    ///< the same, with the half-angle of a cone of unoccluded directions
+  bent_cone,    ///< bent normal, with the half-angle of a cone of unoccluded directions
   normal,       ///< unit normal of the surface
   ao_n,  ///< A, and n of G(A, n, ρ) = A + ρ (1 − A) n/(1 − ρ (1 − n)), which is E/π of any albedo
   horizon,  ///< elevation of the horizon toward N azimuths
